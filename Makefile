@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+# Thin: every target sets up what is missing, then calls one program. `make help` lists them.
+
+PYTHON ?= python3
+SCENE  ?= scenes/torus.toml
+OUT    ?= build/render/$(basename $(notdir $(SCENE)))
+JOBS   ?= 2
+VENV   := .venv
+BIN    := $(VENV)/bin
+READY  := $(VENV)/.ready
+
+.DEFAULT_GOAL := help
+.PHONY: help setup render gallery test lint formats accuracy rules clean distclean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@echo "  variables: PYTHON JOBS; for each target those named in its line"
+
+setup: $(READY) ## build .venv from requirements.lock (PYTHON=python3)
+
+$(READY): requirements.lock pyproject.toml scripts/preflight.sh
+	@sh scripts/preflight.sh "$(PYTHON)"
+	@echo "setting up $(VENV) (exact versions from requirements.lock)"
+	@"$(PYTHON)" -m venv --clear $(VENV)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+render: $(READY) ## golden model and RTL render SCENE=scenes/torus.toml, compared bit for bit (OUT=, ARGS=)
+	@$(BIN)/raydix verify $(SCENE) --out $(OUT) $(ARGS)
+
+gallery: $(READY) ## the same for every scene in scenes/
+	@for s in scenes/*.toml; do $(BIN)/raydix verify $$s --out build/render/$$(basename $$s .toml) $(ARGS) || exit 1; done
+
+test: $(READY) ## the whole regression (T=<module> SEED=<n> WAVES=1 JOBS=2)
+	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),tb/test_$(T).py)
+
+lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, generated files
+	@$(BIN)/python -m pytest -q tb/test_lint.py
+
+formats: $(READY) ## write the constants of rtl/rdx_pkg.sv and docs/number-formats.md from their one table
+	@$(BIN)/python -m raydix.formats --write
+
+accuracy: $(READY) ## every scene's error against float64 roots of the ideal scene (ARGS=)
+	@$(BIN)/python scripts/accuracy.py $(ARGS)
+
+rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
+	@$(BIN)/python scripts/rules.py $(ARGS)
+
+clean: ## remove build/
+	rm -rf build
+
+distclean: clean ## remove build/ and .venv
+	rm -rf $(VENV)
