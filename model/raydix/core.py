@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Descriptor in, hits out: raster, product and ring together (mirrors ``rtl/rdx_core.sv``)."""
+
+from functools import lru_cache
+
+from .fdiff import ROWS, next_pixel, next_row
+from .item import ROOTS, SIZE, STEPS, B
+from .kernel import kernel, zeros
+from .product import product
+from .raster import LANES, header, is_quartic, load_lanes, rectangle, roots_wanted, sample
+from .ring import trace
+
+
+@lru_cache
+def renderer(n1, steps, width, degree):
+    """The kernel ``render_rows`` for one set of parameters, which are constants in it."""
+
+    @kernel
+    def render_rows(words, row_begin, row_end, state, item, first, quads, cells, nodes, t, depth, point, counts):
+        """Trace rows ``row_begin`` to ``row_end - 1`` of the rectangle of the surface descriptor ``words``.
+
+        state … nodes   scratch, see :func:`scratch`
+        t, depth    (rows*columns*roots) of the whole rectangle; a pixel's roots follow each other. t is -1 on entry
+        point       (rows*columns*roots, 3), s2p30
+        counts      (rows*columns), steps
+        """
+        x0, _, x1, _ = rectangle(words)
+        columns = x1 - x0 + 1
+        roots = roots_wanted(words)
+        quartic = is_quartic(words)
+        header(words, item, first)
+        load_lanes(state, words)
+        for _ in range(row_begin):
+            next_row(state)
+        for row in range(row_begin, row_end):
+            for column in range(columns):
+                pixel = row * columns + column
+                sample(state, first, quads)
+                product(quads, quartic, first, B, width, degree)
+                item[ROOTS] = roots
+                trace(item, first, cells, nodes, n1, steps, width, degree, t, depth, point, pixel * roots)
+                counts[pixel] = item[STEPS]
+                if column + 1 < columns:
+                    next_pixel(state)
+            if row + 1 < row_end:
+                next_row(state)
+
+    return render_rows
+
+
+def scratch(config):
+    """Working vectors of ``render_rows`` for a :class:`~raydix.config.Config`: state, item, first, quads, cells, nodes."""
+    size = config.degree + 1
+    return (
+        zeros(ROWS * LANES).reshape(ROWS, LANES),
+        zeros(SIZE),
+        zeros(SIZE),
+        zeros(9),
+        zeros(config.cells * config.degree + 1),
+        zeros((config.n1 + 1) * size),
+    )

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an intersection core gives back, in the same arrays whichever core it was."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .compile import CompiledFrame, CompiledSurface
+
+
+@dataclass
+class SurfaceHits:
+    """Hits of one surface over its screen rectangle (h rows, w columns, R roots wanted).
+
+    t      int64 (h, w, R), digits; -1 where there is no (further) root. In order of t.
+    depth  int32 (h, w, R), s1p31 of the frame's depth scale; 0 where t is -1
+    point  int32 (h, w, R, 3), s2p30 of the surface's local scale; 0 where t is -1
+    steps  int16 (h, w), steps that the item took
+    """
+
+    surface: CompiledSurface
+    t: np.ndarray
+    depth: np.ndarray
+    point: np.ndarray
+    steps: np.ndarray
+
+    @classmethod
+    def empty(cls, surface: CompiledSurface) -> "SurfaceHits":
+        """Arrays for ``surface`` without a hit."""
+        x0, y0, x1, y1 = surface.rect
+        shape = (y1 - y0 + 1, x1 - x0 + 1, surface.roots)
+        return cls(
+            surface,
+            np.full(shape, -1, np.int64),
+            np.zeros(shape, np.int32),
+            np.zeros((*shape, 3), np.int32),
+            np.zeros(shape[:2], np.int16),
+        )
+
+
+@dataclass
+class FrameHits:
+    """All surfaces of a frame, with how long it took.
+
+    seconds  time in the core alone, without set-up
+    cycles   clock cycles (RTL), 0 for the golden model
+    """
+
+    compiled: CompiledFrame
+    surfaces: list[SurfaceHits] = field(default_factory=list)
+    seconds: float = 0.0
+    cycles: int = 0
+
+    def counts(self) -> dict[str, float]:
+        """Rays, items that hit, hits, and steps per item that hit and per item that missed."""
+        steps = [s.steps.astype(np.int64).ravel() for s in self.surfaces]
+        found = [(s.t >= 0).sum(axis=2).ravel() for s in self.surfaces]
+        steps = np.concatenate(steps) if steps else np.zeros(0, np.int64)
+        found = np.concatenate(found) if found else np.zeros(0, np.int64)
+        hit = found > 0
+        return {
+            "rays": int(steps.size),
+            "hit_rays": int(hit.sum()),
+            "hits": int(found.sum()),
+            "steps": int(steps.sum()),
+            "steps_per_hit": float(steps[hit].mean()) if hit.any() else 0.0,
+            "steps_per_miss": float(steps[~hit].mean()) if (~hit).any() else 0.0,
+        }
+
+
+def differing_bits(a: FrameHits, b: FrameHits) -> int:
+    """Bits that differ in any output of two runs of the same compiled frame."""
+    total = 0
+    for one, other in zip(a.surfaces, b.surfaces, strict=True):
+        for name in ("t", "depth", "point", "steps"):
+            total += int(np.bitwise_count(getattr(one, name) ^ getattr(other, name)).sum())
+    return total

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One step of the descent: fixes the next n1 binary digits of t (mirrors ``rtl/rdx_step.sv``)."""
+
+from .cells import subdivide
+from .formats import STEPS_MAX
+from .halve import average
+from .item import AGAIN, BOX, DEPTH, DONE, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
+from .kernel import kernel
+from .normalize import norm_limit, normalize
+from .select import beyond, certified, changes, paper
+
+
+@kernel
+def outside_cells(item, cells, n1):
+    """Mask of the cells that lie beyond a face of the surface's box. ``cells`` is scratch."""
+    mask = 0
+    for axis in range(3):
+        box = item[BOX + axis]
+        if box == 0:
+            continue  # no face cuts this axis
+        cells[0] = item[C + axis]
+        cells[1] = item[C + 3 + axis]
+        subdivide(cells, 1, n1)
+        for j in range(1 << n1):
+            if beyond(cells[j], cells[j + 1], box):
+                mask |= 1 << j
+    return mask
+
+
+@kernel
+def descend(item, at, other, pick, n1):
+    """Replace the ends ``item[at]``, ``item[other]`` of a linear value by those of cell ``pick``."""
+    for bit in range(n1 - 1, -1, -1):
+        middle = average(item[at], item[other])
+        if (pick >> bit) & 1:
+            item[at] = middle
+        else:
+            item[other] = middle
+
+
+@kernel
+def settle(item):
+    """After the last digit: shrink the cell to its middle, the hit point; say whether that is inside the box."""
+    inside = True
+    for axis in range(3):
+        middle = average(item[C + axis], item[C + 3 + axis])
+        item[C + axis] = middle
+        item[C + 3 + axis] = middle
+        if beyond(middle, middle, item[BOX + axis]):
+            inside = False
+    middle = average(item[DEPTH], item[DEPTH + 1])
+    item[DEPTH] = middle
+    item[DEPTH + 1] = middle
+    return inside
+
+
+@kernel
+def step(item, cells, nodes, n1, steps, width, degree):
+    """Fix the next n1 digits of ``item[T]``, or find that no cell is left.
+
+    item    fields as in item.py, STATUS = RUN; changed in place. Its new STATUS is RUN while digits are
+            left, HIT with the point in C and DEPTH when the last is fixed, AGAIN (restart at TNEXT) or DONE at a dead end.
+    cells   scratch for J*degree + 1 values, nodes for (n1+1)*(degree+1)
+    Source: docs/method.md, "A step".
+    """
+    size = degree + 1
+    level = item[LEVEL]
+    last = level == steps - 1
+    shift = n1 * (steps - 1 - level)
+    # cells that are passed over: before TMIN, or outside of the box
+    first = 0
+    if item[FOLLOW]:
+        first = (item[TMIN] >> shift) & ((1 << n1) - 1)
+    excluded = outside_cells(item, cells, n1) | ((1 << first) - 1)
+    # candidates
+    for i in range(size):
+        cells[i] = item[B + i]
+    if item[PAPER]:
+        subdivide(cells, degree, n1)
+        mask = paper(cells, excluded, degree, 1 << n1)
+    else:
+        mask = certified(cells, nodes, excluded, last, degree, n1)
+    item[STEPS] += 1
+    # pick the first, remember the second
+    if mask == 0:
+        item[STATUS] = DONE
+    else:
+        pick = 0
+        while (mask >> pick) & 1 == 0:
+            pick += 1
+        following = pick + 1
+        while mask >> following != 0 and (mask >> following) & 1 == 0:
+            following += 1
+        if mask >> following != 0:
+            item[TNEXT] = item[T] | following << shift
+            item[PENDING] = 1
+        item[T] |= pick << shift
+        item[FOLLOW] = 1 if item[FOLLOW] and pick == first else 0
+        at = pick * degree if item[PAPER] else 0
+        for i in range(size):
+            item[B + i] = cells[at + i]
+        for lane in range(3):
+            descend(item, C + lane, C + 3 + lane, pick, n1)
+        descend(item, DEPTH, DEPTH + 1, pick, n1)
+        if not last:
+            item[LEVEL] = level + 1
+            normalize(item, B, size, width, width, norm_limit(n1))
+        elif settle(item) and changes(item, B, degree):
+            item[STATUS] = HIT
+        else:
+            item[STATUS] = DONE
+    if item[STATUS] == DONE and item[PENDING]:
+        item[STATUS] = AGAIN
+    if item[STEPS] == STEPS_MAX and item[STATUS] != HIT:
+        item[STATUS] = DONE
