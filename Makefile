@@ -18,7 +18,7 @@ help: ## this list
 
 setup: $(READY) ## build .venv from requirements.lock (PYTHON=python3)
 
-$(READY): requirements.lock pyproject.toml scripts/preflight.sh
+$(READY): requirements.lock scripts/preflight.sh
 	@sh scripts/preflight.sh "$(PYTHON)"
 	@echo "setting up $(VENV) (exact versions from requirements.lock)"
 	@"$(PYTHON)" -m venv --clear $(VENV)

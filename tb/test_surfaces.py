@@ -156,7 +156,7 @@ def test_form_is_the_equation(name):
 
 def test_form_keeps_the_binary_value():
     """A length enters the form exactly: 0.1 is the float64 nearest to one tenth, squared without rounding."""
-    with mp.workprec(surfaces.PRECISION):
+    with mp.workprec(256):
         exact = -(mpf(3602879701896397) ** 2) / mpf(2) ** 110
         assert surfaces.form(scene.Sphere(type="sphere", R=0.1)).q3[9] == exact
         ellipsoid = surfaces.form(scene.Ellipsoid(type="ellipsoid", a=0.1, b=1, c=1))

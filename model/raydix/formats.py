@@ -22,6 +22,7 @@ class Constant(NamedTuple):
     value: int
     token: str  # number format, or "" for a plain count
     meaning: str
+    rtl: bool = True  # used by the RTL, too
 
 
 COORD_FRAC = 30
@@ -43,7 +44,7 @@ QUADRIC_WORDS = HEADER_WORDS + 3 * COORD_LANES + 18
 QUARTIC_WORDS = QUADRIC_WORDS + 36
 
 TABLE = (
-    Constant("CoordFrac", COORD_FRAC, "", "fractional bits of a local coordinate"),
+    Constant("CoordFrac", COORD_FRAC, "", "fractional bits of a local coordinate", False),
     Constant("CoordWidth", COORD_WIDTH, "s2p30", "local coordinate of a cell's end, in units of the surface's axis scale"),
     Constant("CoordAccWidth", COORD_ACC_WIDTH, "s2p46", "forward-difference accumulator of a coordinate"),
     Constant("DepthWidth", DEPTH_WIDTH, "s1p31", "camera depth of a cell's end, in units of the frame's depth scale; never negative"),
@@ -57,9 +58,9 @@ TABLE = (
     Constant("BoxWidth", BOX_WIDTH, "u5p0", "box exponent m of an axis: the box is [-2^(1-m), 2^(1-m)); 0 = no side cuts"),
     Constant("StepsWidth", STEPS_WIDTH, "u10p0", "steps taken; at the largest value the item is given up"),
     Constant("CoordLanes", COORD_LANES, "", "x, y, z at the near end h and the far end e"),
-    Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor"),
-    Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2"),
-    Constant("QuarticWords", QUARTIC_WORDS, "", "words of a descriptor of degree 3 or 4"),
+    Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor", False),
+    Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2", False),
+    Constant("QuarticWords", QUARTIC_WORDS, "", "words of a descriptor of degree 3 or 4", False),
 )
 
 STEPS_MAX = (1 << STEPS_WIDTH) - 1
@@ -73,6 +74,8 @@ def systemverilog() -> str:
     """The constants as SystemVerilog localparams."""
     lines = []
     for c in TABLE:
+        if not c.rtl:
+            continue
         token = f"{c.token}: " if c.token else ""
         lines += [f"  // {token}{c.meaning}", f"  localparam int unsigned {c.name} = {c.value};"]
     return "\n".join(lines) + "\n"

