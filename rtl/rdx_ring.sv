@@ -39,8 +39,7 @@ module rdx_ring #(
 );
   import rdx_pkg::*;
 
-  localparam int unsigned N = N1 * K;
-  localparam type item_t = `RDX_ITEM_T(N, W, D);
+  localparam type control_t = `RDX_CONTROL_T(N1 * K);
   localparam int unsigned Slots = U * step_latency(N1, HalveStages, Rules) + 2;
   localparam type slot_t = logic [$clog2(Slots)-1:0];
 
@@ -49,12 +48,13 @@ module rdx_ring #(
   end
 
   // ---- step units ----
-  item_t entry_q;  // the item at the first unit
-  item_t place[U+1];
-  assign place[0] = entry_q;
+  control_t enter_q, control[U+1];  // enter: the item at the first unit
+  segment_t enter_segment_q, segment[U+1];
+  assign control[0] = enter_q;
+  assign segment[0] = enter_segment_q;
   for (genvar u = 0; u < U; u++) begin : gen_unit
     rdx_step #(.N1(N1), .K(K), .W(W), .D(D), .Rules(Rules), .HalveStages(HalveStages)) u_step (
-        .clk_i, .item_i(place[u]), .item_o(place[u+1])
+        .clk_i, .control_i(control[u]), .segment_i(segment[u]), .control_o(control[u+1]), .segment_o(segment[u+1])
     );
   end
 
@@ -82,7 +82,7 @@ module rdx_ring #(
   } first_t;
   logic [$bits(first_t)-1:0] first_mem[Slots];
   first_t first_q;     // of the item that leaves the last unit
-  segment_t again_q;   // of the item at the entry
+  segment_t again_q;   // of the item behind the wrap
   wire logic take = ray_valid_i && ray_ready_o;
   always_ff @(posedge clk_i) begin
     first_q <= first_mem[behind_slot];
@@ -91,10 +91,12 @@ module rdx_ring #(
   end
 
   // ---- leaving: hand over the record ----
-  item_t back, leave_d, leave_q;
+  control_t back, leave_d, leave_q;
+  segment_t back_segment, leave_segment_q;
   hit_t  record;
   logic  give, given, more_roots;
-  assign back = place[U];
+  assign back = control[U];
+  assign back_segment = segment[U];
   assign more_roots = back.roots > 1 && back.pending && !(&back.steps);
   assign give = filled_q && (back.status == Hit || back.status == Done);
   assign record = '{
@@ -104,8 +106,8 @@ module rdx_ring #(
       hit: back.status == Hit,
       last: back.status == Done || !more_roots,
       t: 32'(back.t),
-      depth: back.ends.depth_start,
-      point: back.ends.start,
+      depth: back_segment.ends.depth_start,
+      point: back_segment.ends.start,
       steps: back.steps
   };
   rdx_register #(.W($bits(hit_t))) u_out (
@@ -122,31 +124,39 @@ module rdx_ring #(
       leave_d.roots  = back.roots - 1'b1;
     end
   end
-  always_ff @(posedge clk_i) leave_q <= leave_d;
+  always_ff @(posedge clk_i) begin
+    leave_q <= leave_d;
+    leave_segment_q <= back_segment;
+  end
 
   // ---- entering: a new ray in an empty slot, a restart from the first segment ----
-  item_t entry_d;
+  control_t enter_d;
+  segment_t enter_segment_d;
   assign ray_ready_o = filled_q && leave_q.status == Idle;
   always_comb begin
-    entry_d = leave_q;
+    enter_d = leave_q;
+    enter_segment_d = leave_segment_q;
     if (take) begin
-      entry_d = '0;
-      entry_d.status = Run;
-      entry_d.paper = ray_i.paper;
-      entry_d.roots = ray_i.roots;
-      entry_d.box = ray_i.box;
-      {entry_d.ends, entry_d.b} = segment_i;
+      enter_d = '0;
+      enter_d.status = Run;
+      enter_d.paper = ray_i.paper;
+      enter_d.roots = ray_i.roots;
+      enter_d.box = ray_i.box;
+      enter_segment_d = segment_i;
     end else if (leave_q.status == Again) begin
-      entry_d.status = Run;
-      entry_d.level = '0;
-      entry_d.t = '0;
-      entry_d.t_min = leave_q.t_next;
-      entry_d.follow = 1'b1;
-      entry_d.pending = 1'b0;
-      {entry_d.ends, entry_d.b} = again_q;
+      enter_d.status = Run;
+      enter_d.level = '0;
+      enter_d.t = '0;
+      enter_d.t_min = leave_q.t_next;
+      enter_d.follow = 1'b1;
+      enter_d.pending = 1'b0;
+      enter_segment_d = again_q;
     end
   end
-  always_ff @(posedge clk_i) entry_q <= entry_d;
+  always_ff @(posedge clk_i) begin
+    enter_q <= enter_d;
+    enter_segment_q <= enter_segment_d;
+  end
 
   `RDX_STREAM(a_hit, hit_valid_o, hit_ready_i, hit_o)
   `RDX_ASSERT(a_wanted, !take || (ray_i.roots >= 1 && ray_i.roots <= 4))

@@ -10,8 +10,8 @@
     logic [D:0][W-1:0] b; \
   }
 
-// The item that travels in the ring: one ray and one surface.
-`define RDX_ITEM_T(N, W, D) \
+// What an item needs beside its cell.
+`define RDX_CONTROL_T(N) \
   struct packed { \
     rdx_pkg::status_e        status; \
     logic                    paper;   /* 1: paper rule, 0: certified rule */ \
@@ -24,8 +24,6 @@
     logic [N-1:0]            t;       /* digits fixed, most significant first */ \
     logic [N-1:0]            t_min;   /* where this descent starts */ \
     logic [N-1:0]            t_next;  /* start of the deepest cell passed over that is still to be searched */ \
-    rdx_pkg::ends_t          ends; \
-    logic [D:0][W-1:0] b; \
   }
 
 `endif

@@ -370,6 +370,11 @@ def mutations(draw):
     return "\n".join(lines)
 
 
+def test_scene_to_mutate_is_valid(tmp_path):
+    """The mutations start from a scene that loads."""
+    assert len(load_scene(write(tmp_path, VALID)).surfaces) == 4
+
+
 @settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(mutations())
 def test_mutated_scenes_load_or_are_refused(tmp_path, text):

@@ -14,6 +14,7 @@ COEFFICIENTS = (1.0, 1.2, 1.5, 0.8, -0.6, -0.9, 0.2, -0.1, 0.3, -1.3)
 Q1 = (0.4, 3.0, 3.0, 0.1, -0.2, 0.3, 0.1, 0.0, -0.2, -1.0)
 Q2 = (3.0, 2.0, 0.4, 0.2, 0.1, 0.1, -0.1, 0.2, 0.3, -1.1)
 Q3 = (0.1, 0.2, -0.1, 0.3, 0.2, -0.2, 0.1, -0.1, 0.1, -0.3)
+FAR = (-9.0, -5.0, -7.0, 0.3, 0.2, -0.2, 2.0, -1.0, 1.0, -80.0)  # a Q3 that carries the surface outwards
 
 
 def quadric(q, x, y, z):
@@ -103,6 +104,11 @@ CASES: dict[str, tuple[scene.Surface, Callable, bool]] = {
     "quartic": (
         scene.Quartic(type="quartic", Q1=Q1, Q2=Q2, Q3=Q3),
         lambda x, y, z: quadric(Q1, x, y, z) * quadric(Q2, x, y, z) + quadric(Q3, x, y, z),
+        True,
+    ),
+    "quartic, negative Q3": (
+        scene.Quartic(type="quartic", Q1=Q1, Q2=Q2, Q3=FAR),
+        lambda x, y, z: quadric(Q1, x, y, z) * quadric(Q2, x, y, z) + quadric(FAR, x, y, z),
         True,
     ),
     "quartic, opposite signs": (

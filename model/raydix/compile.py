@@ -338,6 +338,11 @@ def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix
     depth = [int(mp.nint(z * depth_factor)) for z in (near, far)]
     words = [head, x0 | y0 << 16 | x1 << 32 | y1 << 48, depth[0] | depth[1] << DEPTH_WIDTH, *coordinates]
     words += _quadric_words(shape, h, e, columns, rows)
+    if any(abs(w) >= 1 << 63 for w in words):
+        raise SceneError(
+            f"{scene.path}: surface[{index}] ({surface.type}): found sizes that lie too far apart for the configured "
+            "words; allowed: coordinates, scale and camera distance nearer to each other"
+        )
     return CompiledSurface(index, tuple(words), rect, float(near), float(far), roots, origin, unit)
 
 

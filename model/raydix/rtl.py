@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -70,7 +71,7 @@ def environment() -> dict[str, str]:
 
 
 # The packaged verilated.mk lacks the flag for precompiled headers; OPT_FAST speeds up the simulation.
-MAKE_FLAGS = "CFG_CXXFLAGS_PCH_I=-include OPT_FAST=-O3"
+MAKE_FLAGS = "CFG_CXXFLAGS_PCH_I=-include OPT_FAST='-O2 -march=native'"
 
 
 def has_fst() -> bool:
@@ -152,12 +153,18 @@ def _collect(compiled: CompiledFrame, records: np.ndarray) -> list[SurfaceHits]:
 
 
 def trace_rtl(
-    compiled: CompiledFrame, config: Config, stall: int | None = None, wave: Path | None = None
+    compiled: CompiledFrame,
+    config: Config,
+    stall: int | None = None,
+    wave: Path | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> FrameHits:
     """Hits of all surfaces of ``compiled`` from the RTL under Verilator.
 
-    stall  seed of random stalls at both ports
-    wave   waveform file to write; its ending, .vcd or .fst, names the format
+    stall     seed of random stalls at both ports
+    wave      waveform file to write; its ending, .vcd or .fst, names the format
+    progress  called with (rays done, rays in all)
+    Raises :class:`RtlError`.
     """
     total = sum(SurfaceHits.empty(s).steps.size for s in compiled.surfaces)
     binary = build(config, wave.suffix[1:] if wave else None)
@@ -167,9 +174,14 @@ def trace_rtl(
         command = [str(binary), str(words), str(total), str(out)]
         command += ["--stall", str(stall)] if stall is not None else []
         command += ["--trace", str(wave)] if wave else []
-        run = subprocess.run(command, capture_output=True, text=True)
+        command += ["--progress", str(1 << 14)] if progress else []
+        line = ""
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+            for line in run.stdout:
+                if progress and line.startswith("progress "):
+                    progress(int(line.split()[1]), total)
         if run.returncode:
-            raise RtlError(f"simulation failed: {(run.stdout + run.stderr).strip()}")
-        report = json.loads(run.stdout.splitlines()[-1])
+            raise RtlError(f"simulation failed: {line.strip()}")
+        report = json.loads(line)
         records = np.fromfile(out, RECORD)
     return FrameHits(compiled, _collect(compiled, records), report["seconds"], report["cycles"])

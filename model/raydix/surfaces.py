@@ -173,16 +173,16 @@ def _cyclide_box(a: mpf, b: mpf, d: mpf) -> Box:
 
 
 def _radius(f: Form) -> mpf | None:
-    """A radius about the origin beyond which F has no zero; None if Q1 or Q2 is not definite.
+    """A radius about the origin beyond which F has no zero; None if Q1 and Q2 are not definite of one sign.
 
     At distance s from the origin a quadric is at least e*s^2 - |b|*s + c, e its lowest eigenvalue. Q1 and
-    Q2 (of one sign, here taken as positive) are so at least l1(s) and l2(s), and Q3 at least -u3(s), where u3
+    Q2, both taken as positive, are so at least l1(s) and l2(s), and Q3 at least -u3(s), where u3
     leaves out what is positive in Q3. From the start below, l1/s and l2/s do not fall and u3/s^2 does not
     grow, so that l1*l2 - u3 changes sign at most once: the radius is there, from above.
     """
     assert f.q1 is not None and f.q2 is not None
     sign = _definite(f.q1)
-    if not sign or not _definite(f.q2):
+    if not sign or _definite(f.q2) != sign:
         return None
     e3, b3, c3 = _lower_bound(f.q3)
     bounds = [_lower_bound(q if sign > 0 else _negate(q)) for q in (f.q1, f.q2)]

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs one frame through rdx_core at full simulation speed.
 //
-//   frame WORDS RAYS RECORDS [--stall SEED] [--trace FILE]
+//   frame WORDS RAYS RECORDS [--stall SEED] [--trace FILE] [--progress RAYS]
 //
 // WORDS    file of 64-bit descriptor words     RAYS     rays in all; the run ends with the last record of the last one
 // RECORDS  file written: one Record per transfer of the hit stream, in order of arrival
 // --stall  holds back the descriptor and the hit stream at random
 // --trace  writes a waveform (where built with one)
-// Prints one line of JSON: cycles, rays, records, seconds of simulation, busy cycles of each port.
+// --progress  prints a line "progress N" after each RAYS rays
+// Prints one line of JSON: cycles, rays, records, seconds of simulation.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -43,11 +44,13 @@ int main(int argc, char** argv) {
     if (argc < 4) return fail("usage: frame WORDS RAYS RECORDS [--stall SEED] [--trace FILE]");
     const std::uint64_t rays = std::strtoull(argv[2], nullptr, 10);
     bool stall = false;
+    std::uint64_t report = 0;
     std::mt19937_64 random;
     std::string trace_name;
     for (int i = 4; i + 1 < argc; i += 2) {
         if (!std::strcmp(argv[i], "--stall")) stall = true, random.seed(std::strtoull(argv[i + 1], nullptr, 10));
         else if (!std::strcmp(argv[i], "--trace")) trace_name = argv[i + 1];
+        else if (!std::strcmp(argv[i], "--progress")) report = std::strtoull(argv[i + 1], nullptr, 10);
         else return fail("unknown option ", argv[i]);
     }
 
@@ -113,6 +116,10 @@ int main(int argc, char** argv) {
             records.push_back(r);
             finished += r.last;
             quiet = 0;
+            if (report && r.last && finished % report == 0) {
+                std::printf("progress %llu\n", static_cast<unsigned long long>(finished));
+                std::fflush(stdout);
+            }
         }
         tick();
         if (taken) sent++, offered = false, quiet = 0;

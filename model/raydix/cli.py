@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command ``raydix``."""
+
+import argparse
+import os
+import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from .config import RULES, Config, ConfigError
+from .image import ImageError, write_frame
+from .rtl import RtlError, build
+from .scene import Scene, SceneError, load_scene
+
+if TYPE_CHECKING:
+    from .render import Verdict
+
+USER_ERRORS = (SceneError, ConfigError, ImageError, RtlError)
+QUARTICS = ("torus", "cyclide", "quartic")
+REFERENCE_DIGITS = 24
+
+
+def _size(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d+)[xX×](\d+)", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: WIDTHxHEIGHT, for example 640x480")
+    return int(match[1]), int(match[2])
+
+
+def _add_scene_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", type=Path, help="scene file (TOML)")
+    parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
+    parser.add_argument("--n1", type=int, default=3, metavar="N", help="binary digits fixed per step, 1 to 4 (default: 3)")
+    parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
+    parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
+    parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
+    parser.add_argument("--size", type=_size, metavar="WxH", help="image size instead of the scene's")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the pictures")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="raydix", description="Ray casting of analytic surfaces, a few binary digits of the ray parameter per step."
+    )
+    commands = parser.add_subparsers(dest="command", required=True)
+    render = commands.add_parser("render", help="render a scene: PNG, EXR and npz")
+    _add_scene_options(render)
+    render.add_argument("--backend", choices=("golden", "rtl"), default="golden", help="who computes (default: golden)")
+    verify = commands.add_parser("verify", help="render by golden model and RTL and compare them bit for bit")
+    _add_scene_options(verify)
+    compare = commands.add_parser("compare", help="compare two outputs; exit status 1 if they differ")
+    compare.add_argument("a", type=Path, metavar="A", help="an .npz, .exr or .png file, or a folder of render")
+    compare.add_argument("b", type=Path, metavar="B", help="another")
+    return parser
+
+
+def _config(args: argparse.Namespace, scene: Scene) -> Config:
+    """The configuration asked for; only the rule that is used and the degree that the scene needs are built."""
+    if not 1 <= args.n1 <= 4:
+        raise ConfigError(f"n1: found {args.n1}; allowed: 1 to 4")
+    if args.threads < 1:
+        raise ConfigError(f"threads: found {args.threads}; allowed: 1 or more")
+    steps = REFERENCE_DIGITS // args.n1 if args.steps is None else args.steps
+    units = max(1, min(8, steps)) if args.units is None else args.units
+    degree = 4 if any(s.type in QUARTICS for s in scene.surfaces) else 2
+    return Config(args.n1, steps, args.width, degree, units, args.rule, args.rule)
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[str], Callable[[int, int], None]]]:
+    """Gives a function that makes one bar after the other; nothing is drawn where stderr is no terminal."""
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
+
+        def bar(label: str) -> Callable[[int, int], None]:
+            task = bars.add_task(label, total=None)
+            return lambda done, total: bars.update(task, completed=done, total=total)
+
+        yield bar
+
+
+def _load(args: argparse.Namespace) -> Scene:
+    return load_scene(args.scene, *(args.size or (None, None)))
+
+
+def _build(config: Config) -> None:
+    """Build the simulator, with a word about it: it takes a while."""
+    console = Console(stderr=True)
+    with console.status(f"building the RTL with Verilator (U = {config.units}, about half a minute) …"):
+        build(config)
+
+
+def _render(args: argparse.Namespace) -> int:
+    from .render import render_golden, render_rtl
+
+    scene = _load(args)
+    config = _config(args, scene)
+    if args.backend == "rtl":
+        _build(config)
+    with _progress() as bar:
+        if args.backend == "golden":
+            frame = render_golden(scene, config, args.threads, bar("golden model, rays"))
+        else:
+            frame = render_rtl(scene, config, bar("RTL, rays"))
+    for path in write_frame(frame, args.out, scene.name):
+        print(path)
+    return 0
+
+
+def _table(verdict: "Verdict", pixels: int) -> Table:
+    """Golden model and RTL side by side."""
+    sides = [(frame.hits, frame.hits.counts()) for frame in (verdict.golden, verdict.rtl)]
+    rows = {
+        "time, s": [f"{hits.seconds:.3f}" for hits, _ in sides],
+        "Mpixel/s": [f"{pixels / hits.seconds / 1e6:.2f}" if hits.seconds else "–" for hits, _ in sides],
+        "rays": [f"{counts['rays']:,}" for _, counts in sides],
+        "rays that hit": [f"{counts['hit_rays']:,}" for _, counts in sides],
+        "hits": [f"{counts['hits']:,}" for _, counts in sides],
+        "steps per ray that hits": [f"{counts['steps_per_hit']:.3f}" for _, counts in sides],
+        "steps per ray that misses": [f"{counts['steps_per_miss']:.3f}" for _, counts in sides],
+        "cycles": [f"{hits.cycles:,}" if hits.cycles else "–" for hits, _ in sides],
+        "cycles per ray": [
+            f"{hits.cycles / counts['rays']:.4f}" if hits.cycles and counts["rays"] else "–" for hits, counts in sides
+        ],
+    }
+    table = Table()
+    for name in ("", "golden model", "RTL"):
+        table.add_column(name, justify="right" if name else "left")
+    for name, values in rows.items():
+        table.add_row(name, *values)
+    return table
+
+
+def _verify(args: argparse.Namespace) -> int:
+    from .render import verify, write_verdict
+
+    scene = _load(args)
+    config = _config(args, scene)
+    _build(config)
+    with _progress() as bar:
+        verdict = verify(scene, config, args.threads, (bar("golden model, rays"), bar("RTL, rays")))
+    write_verdict(verdict, args.out, scene.name)
+    print(
+        f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: n1 = {config.n1}, "
+        f"K = {config.steps}, W = {config.width}, D = {config.degree}, U = {config.units}"
+    )
+    Console().print(_table(verdict, scene.camera.width * scene.camera.height))
+    print(f"differing bits: {verdict.hit_bits} in the hits, {verdict.image_bits} in the images")
+    print(f"pictures: {args.out}/golden, {args.out}/rtl, {args.out}/{scene.name}-difference.png")
+    return int(bool(verdict.hit_bits or verdict.image_bits))
+
+
+def _compare(args: argparse.Namespace) -> int:
+    from .compare import compare
+
+    lines = compare(args.a, args.b)
+    print("\n".join(lines) if lines else "equal")
+    return int(bool(lines))
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command line. Exit status: 0 fine, 1 outputs differ, 2 bad input, 130 interrupted."""
+    args = _parser().parse_args(argv)
+    try:
+        return {"render": _render, "verify": _verify, "compare": _compare}[args.command](args)
+    except USER_ERRORS as error:
+        for line in str(error).splitlines():
+            print(f"raydix: {line}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("raydix: interrupted; nothing half written", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

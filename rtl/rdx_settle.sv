@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The end of a step: scales the control points, and says what becomes of the item.
+//
+// After the last digit the cell shrinks to its middle, the hit point: a hit if the cell's ends differ in sign and the
+// point is inside of the box. Without a hit or a cell the item goes on at its pending cell, or is done.
+//
+// Formats    as in rdx_step; dead_i: no cell was found.
+// Rounding   half up in the middle; the scaling is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
+// Timing     latency rdx_pkg::NormalizeLatency = 2 clocks, one item a clock; no reset, no stall.
+// Model      model/raydix/step.py (settle, step)
+`default_nettype none
+`include "rdx_types.svh"
+
+module rdx_settle #(
+    parameter int unsigned N1 = 3,
+    parameter int unsigned K = 8,
+    parameter int unsigned W = 36,
+    parameter int unsigned D = 4,
+    localparam type control_t = `RDX_CONTROL_T(N1 * K),
+    localparam type segment_t = `RDX_SEGMENT_T(W, D)
+) (
+    input  wire logic     clk_i,
+    input  wire control_t control_i,
+    input  wire segment_t segment_i,
+    input  wire logic     dead_i,
+    output      control_t control_o,
+    output      segment_t segment_o
+);
+  import rdx_pkg::*;
+
+  // ---- control points ----
+  logic signed [W-1:0] b[D+1], scaled[D+1];
+  always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
+  rdx_normalize #(.WIn(W), .WOut(W), .Count(D + 1), .Limit(norm_limit(N1))) u_normalize (
+      .clk_i, .en_i(1'b1), .values_i(b), .values_o(scaled)
+  );
+
+  // ---- first clock: the middle of the cell, and whether it holds a sign change ----
+  ends_t middle;
+  for (genvar axis = 0; axis < 3; axis++) begin : gen_middle
+    coord_t ends[2], left[2], right[2];
+    assign ends = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
+    rdx_halve #(.W(CoordWidth), .D(1), .Stages(0)) u_halve (
+        .clk_i, .b_i(ends), .left_o(left), .right_o(right)
+    );
+    assign middle.start[axis] = left[1];
+    assign middle.stop[axis]  = right[0];
+    wire logic unused = &{1'b0, left[0], right[1]};
+  end
+  depth_t depths[2], left_depth[2], right_depth[2];
+  assign depths = '{segment_i.ends.depth_start, segment_i.ends.depth_stop};
+  rdx_halve #(.W(DepthWidth), .D(1), .Stages(0)) u_halve_depth (
+      .clk_i, .b_i(depths), .left_o(left_depth), .right_o(right_depth)
+  );
+  assign middle.depth_start = left_depth[1];
+  assign middle.depth_stop  = right_depth[0];
+  wire logic unused_depth = &{1'b0, left_depth[0], right_depth[1]};
+
+  wire logic run = control_i.status == Run;
+  wire logic last = run && !dead_i && control_i.level == 5'(K - 1);
+  control_t control_q;
+  ends_t    ends_q, ends_qq;
+  logic     dead_q, last_q, changes_q;
+  always_ff @(posedge clk_i) begin
+    control_q <= control_i;
+    ends_q    <= last ? middle : segment_i.ends;
+    ends_qq   <= ends_q;
+    dead_q    <= dead_i;
+    last_q    <= last;
+    changes_q <= (b[0] > 0) != (b[D] > 0);
+  end
+
+  // ---- second clock: the verdict ----
+  coord_t point[3][2];
+  logic   point_outside;
+  always_comb for (int unsigned axis = 0; axis < 3; axis++) point[axis] = '{default: ends_q.start[axis]};
+  rdx_outside #(.J(1)) u_point (.boundaries_i(point), .box_i(control_q.box), .outside_o(point_outside));
+
+  control_t control_d;
+  always_comb begin
+    control_d = control_q;
+    if (control_q.status == Run) begin
+      if (!dead_q && !last_q) control_d.level = control_q.level + 1'b1;
+      if (last_q && changes_q && !point_outside) control_d.status = Hit;
+      else if (last_q || dead_q) control_d.status = control_q.pending ? Again : Done;
+      if (control_d.status != Hit && (&control_q.steps)) control_d.status = Done;
+    end
+  end
+  always_ff @(posedge clk_i) control_o <= control_d;
+
+  always_comb begin
+    segment_o.ends = ends_qq;
+    for (int unsigned i = 0; i <= D; i++) segment_o.b[i] = scaled[i];
+  end
+
+endmodule
+
+`default_nettype wire
