@@ -137,6 +137,18 @@ def ideal_hits(scene, surface_index):
     return hits
 
 
+def chord_roots(q, h, e):
+    """Roots of F = Q1*Q2 + Q3 on chords h + t (e - h), 0 <= t < 1.
+
+    q     (3, 10) coefficients of Q1, Q2, Q3, as from `quadrics`
+    h, e  (N, 3) ends in local coordinates
+    Returns (N, 4), increasing, nan-padded.
+    """
+    out = np.full((len(h), MAX_ROOTS), np.nan)
+    _chords(np.ascontiguousarray(q), np.ascontiguousarray(h), np.ascontiguousarray(e), out)
+    return out
+
+
 def ideal_frame(scene):
     """The nearest accepted root over all surfaces (`IdealFrame`); at equal depth the lower surface number."""
     shape = scene.camera.height, scene.camera.width
@@ -186,6 +198,17 @@ def _trace(q, eye, axes, centre, half, corner, depth, count, clearance):
                         depth[row, column, count[row, column]] = nearest + s
                         count[row, column] += 1
             clearance[row, column] = clear
+
+
+@njit(cache=True, error_model="numpy")
+def _chords(q, h, e, out):
+    """Fill out with the roots in [0, 1) of each chord, from coefficients about its middle."""
+    roots, extrema = np.empty(MAX_ROOTS), np.empty(MAX_ROOTS)
+    for i in range(len(h)):
+        ray = e[i] - h[i]
+        n_roots, _ = _real_roots(_on_ray(q, h[i] + 0.5 * ray, ray), -0.5, 0.5, roots, extrema)
+        for k in range(n_roots):
+            out[i, k] = roots[k] + 0.5
 
 
 @njit(cache=True, error_model="numpy")
