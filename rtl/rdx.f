@@ -7,6 +7,7 @@ rdx_normalize.sv
 rdx_guess.sv
 rdx_select.sv
 rdx_outside.sv
+rdx_carry.sv
 rdx_settle.sv
 rdx_step.sv
 rdx_ring.sv

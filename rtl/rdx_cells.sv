@@ -15,9 +15,9 @@ module rdx_cells #(
     parameter int unsigned N1 = 3,
     parameter int unsigned HalveStages = 2
 ) (
-    input  wire  logic                clk_i,
-    input  wire  logic signed [W-1:0] b_i    [D+1],
-    output       logic signed [W-1:0] cells_o[(1<<N1)*D+1]
+    input  wire logic                clk_i,
+    input  wire logic signed [W-1:0] b_i    [        D+1],
+    output logic signed      [W-1:0] cells_o[(1<<N1)*D+1]
 );
 
   if (N1 < 1 || N1 > 4) begin : gen_illegal_n1
@@ -43,8 +43,15 @@ module rdx_cells #(
             assign points[(2*c+1)*D+i] = right[i];
           end
         end
-        rdx_halve #(.W(W), .D(D), .Stages(HalveStages)) u_halve (
-            .clk_i, .b_i(whole), .left_o(left), .right_o(right)
+        rdx_halve #(
+            .W(W),
+            .D(D),
+            .Stages(HalveStages)
+        ) u_halve (
+            .clk_i,
+            .b_i(whole),
+            .left_o(left),
+            .right_o(right)
         );
       end
     end

@@ -13,7 +13,7 @@ module rdx_delay #(
 ) (
     input  wire logic clk_i,
     input  wire T     data_i[Count],
-    output       T     data_o[Count]
+    output T          data_o[Count]
 );
 
   if (Depth == 0) begin : gen_wire

@@ -13,24 +13,24 @@ module rdx_fdiff #(
     parameter int unsigned W = 64,
     parameter bit Quadratic = 1'b1
 ) (
-    input  wire  logic                clk_i,
-    input  wire  logic                load_i,   // word_i is word index_i of this lane
-    input  wire  logic         [ 2:0] index_i,
-    input  wire  logic         [63:0] word_i,
-    input  wire  logic                pixel_i,  // one pixel to the right
-    input  wire  logic                row_i,    // first pixel of the next row
-    output       logic signed [W-1:0] value_o
+    input  wire logic           clk_i,
+    input  wire logic           load_i,   // word_i is word index_i of this lane
+    input  wire logic   [  2:0] index_i,
+    input  wire logic   [ 63:0] word_i,
+    input  wire logic           pixel_i,  // one pixel to the right
+    input  wire logic           row_i,    // first pixel of the next row
+    output logic signed [W-1:0] value_o
 );
 
   logic signed [W-1:0] word;
-  logic signed [W-1:0] value_q, slope_q;          // at the pixel: value, x-difference
+  logic signed [W-1:0] value_q, slope_q;  // at the pixel: value, x-difference
   logic signed [W-1:0] row_value_q, row_slope_q;  // the same at the row's first pixel
-  logic signed [W-1:0] row_rise_q;                // y-difference there
-  logic signed [W-1:0] dxx, dxy, dyy;             // second differences
+  logic signed [W-1:0] row_rise_q;  // y-difference there
+  logic signed [W-1:0] dxx, dxy, dyy;  // second differences
 
   assign word = word_i[W-1:0];
   if (W < 64) begin : gen_narrow
-    wire logic unused = &{1'b0, word_i[63:W]};
+    wire unused = &{1'b0, word_i[63:W]};
   end
 
   if (Quadratic) begin : gen_quadratic
@@ -45,8 +45,8 @@ module rdx_fdiff #(
     assign {dxx, dxy, dyy} = '0;
   end
 
-  wire logic signed [W-1:0] next_row_value = row_value_q + row_rise_q;
-  wire logic signed [W-1:0] next_row_slope = row_slope_q + dxy;
+  wire signed [W-1:0] next_row_value = row_value_q + row_rise_q;
+  wire signed [W-1:0] next_row_slope = row_slope_q + dxy;
 
   always_ff @(posedge clk_i) begin
     if (load_i) begin

@@ -15,10 +15,10 @@ module rdx_halve #(
     parameter int unsigned D = 4,
     parameter int unsigned Stages = 2
 ) (
-    input  wire  logic                clk_i,
-    input  wire  logic signed [W-1:0] b_i    [D+1],
-    output       logic signed [W-1:0] left_o [D+1],
-    output       logic signed [W-1:0] right_o[D+1]
+    input  wire logic                clk_i,
+    input  wire logic signed [W-1:0] b_i    [D+1],
+    output logic signed      [W-1:0] left_o [D+1],
+    output logic signed      [W-1:0] right_o[D+1]
 );
 
   if (W < 2) begin : gen_illegal_w
@@ -50,16 +50,31 @@ module rdx_halve #(
       always_comb begin
         left_d = gen_row[r-1].left_q;
         work_d = gen_row[r-1].work_q;
-        for (int unsigned i = 0; i <= D - r; i++)
-          work_d[i] = average(gen_row[r-1].work_q[i], gen_row[r-1].work_q[i+1]);
+        for (int unsigned i = 0; i <= D - r; i++) work_d[i] = average(gen_row[r-1].work_q[i], gen_row[r-1].work_q[i+1]);
         left_d[r] = work_d[0];
       end
     end
 
     logic signed [W-1:0] left_q[D+1];
     logic signed [W-1:0] work_q[D+1];
-    rdx_delay #(.T(logic signed [W-1:0]), .Count(D + 1), .Depth(Registers)) u_left (.clk_i, .data_i(left_d), .data_o(left_q));
-    rdx_delay #(.T(logic signed [W-1:0]), .Count(D + 1), .Depth(Registers)) u_work (.clk_i, .data_i(work_d), .data_o(work_q));
+    rdx_delay #(
+        .T(logic signed [W-1:0]),
+        .Count(D + 1),
+        .Depth(Registers)
+    ) u_left (
+        .clk_i,
+        .data_i(left_d),
+        .data_o(left_q)
+    );
+    rdx_delay #(
+        .T(logic signed [W-1:0]),
+        .Count(D + 1),
+        .Depth(Registers)
+    ) u_work (
+        .clk_i,
+        .data_i(work_d),
+        .data_o(work_q)
+    );
   end
 
   assign left_o  = gen_row[D].left_q;

@@ -9,15 +9,15 @@
 `default_nettype none
 
 module rdx_normalize #(
-    parameter int unsigned WIn = 36,
-    parameter int unsigned WOut = 36,
+    parameter int unsigned WIn   = 36,
+    parameter int unsigned WOut  = 36,
     parameter int unsigned Count = 5,
-    parameter int unsigned Limit = 7  // largest shift, 2^b - 1 and below WIn
+    parameter int unsigned Limit = 7    // largest shift, 2^b - 1 and below WIn
 ) (
-    input  wire  logic                   clk_i,
-    input  wire  logic                   en_i,
-    input  wire  logic signed [WIn-1:0]  values_i[Count],
-    output       logic signed [WOut-1:0] values_o[Count]
+    input  wire logic                   clk_i,
+    input  wire logic                   en_i,
+    input  wire logic signed [ WIn-1:0] values_i[Count],
+    output logic signed      [WOut-1:0] values_o[Count]
 );
 
   localparam int unsigned Bits = $clog2(Limit + 1);
@@ -36,8 +36,7 @@ module rdx_normalize #(
   logic [Bits-1:0] shift_d, shift_q;
   always_comb begin
     used = '0;
-    for (int unsigned i = 0; i < Count; i++)
-      used |= values_i[i][WIn-2:0] ^ {(WIn - 1) {values_i[i][WIn-1]}};
+    for (int unsigned i = 0; i < Count; i++) used |= values_i[i][WIn-2:0] ^ {(WIn - 1) {values_i[i][WIn-1]}};
     shift_d = Bits'(Limit);
     for (int unsigned s = 0; s < Limit; s++) if (used[WIn-2-(Limit-1-s)]) shift_d = Bits'(Limit - 1 - s);
   end
@@ -51,10 +50,10 @@ module rdx_normalize #(
   end
 
   for (genvar i = 0; i < Count; i++) begin : gen_value
-    wire logic signed [WIn-1:0] shifted = values_q[i] <<< shift_q;
+    wire signed [WIn-1:0] shifted = values_q[i] <<< shift_q;
     always_ff @(posedge clk_i) if (en_i) values_o[i] <= shifted[WIn-1-:WOut];
     if (WIn > WOut) begin : gen_dropped
-      wire logic unused = &{1'b0, shifted[WIn-WOut-1:0]};
+      wire unused = &{1'b0, shifted[WIn-WOut-1:0]};
     end
   end
 

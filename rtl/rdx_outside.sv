@@ -12,9 +12,9 @@
 module rdx_outside #(
     parameter int unsigned J = 8
 ) (
-    input  wire  rdx_pkg::coord_t         boundaries_i[3][J+1],
-    input  wire  rdx_pkg::box_t   [2:0]   box_i,
-    output       logic            [J-1:0] outside_o
+    input  wire rdx_pkg::coord_t         boundaries_i[3][J+1],
+    input  wire rdx_pkg::box_t   [  2:0] box_i,
+    output logic                 [J-1:0] outside_o
 );
   import rdx_pkg::*;
 
@@ -27,10 +27,10 @@ module rdx_outside #(
       face_bits = ~coord_t'({CoordWidth{1'b1}} >> 1 >> box_i[axis]);
       for (int unsigned j = 0; j <= J; j++) begin
         sign[axis][j] = boundaries_i[axis][j][CoordWidth-1];
-        over[axis][j] = |((boundaries_i[axis][j] ^ {CoordWidth{sign[axis][j]}}) & face_bits);
+        over[axis][j] = |((boundaries_i[axis][j] ^{CoordWidth{sign[axis][j]}}) & face_bits);
       end
       for (int unsigned j = 0; j < J; j++)
-        if (over[axis][j] && over[axis][j+1] && sign[axis][j] == sign[axis][j+1]) outside_o[j] = 1'b1;
+      if (over[axis][j] && over[axis][j+1] && sign[axis][j] == sign[axis][j+1]) outside_o[j] = 1'b1;
     end
   end
 

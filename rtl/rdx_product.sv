@@ -23,18 +23,18 @@ module rdx_product #(
     localparam int unsigned Quads = D == 4 ? 9 : 3,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic            clk_i,
-    input  wire logic            rst_ni,
-    input  wire logic            ray_valid_i,
-    output      logic            ray_ready_o,
-    input  wire rdx_pkg::ray_t   ray_i,
-    input  wire rdx_pkg::ends_t  ends_i,
-    input  wire logic            quartic_i,
-    input  wire rdx_pkg::quad_t  quads_i[Quads],
-    output      logic            ray_valid_o,
-    input  wire logic            ray_ready_i,
-    output      rdx_pkg::ray_t   ray_o,
-    output      segment_t        segment_o
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire logic           ray_valid_i,
+    output logic                ray_ready_o,
+    input  wire rdx_pkg::ray_t  ray_i,
+    input  wire rdx_pkg::ends_t ends_i,
+    input  wire logic           quartic_i,
+    input  wire rdx_pkg::quad_t quads_i    [Quads],
+    output logic                ray_valid_o,
+    input  wire logic           ray_ready_i,
+    output rdx_pkg::ray_t       ray_o,
+    output segment_t            segment_o
 );
   import rdx_pkg::*;
 
@@ -43,9 +43,9 @@ module rdx_product #(
 
   // ---- stream: all stages advance together ----
   logic [Latency-1:0] valid_q;
-  ray_t  ray_q [Latency];
+  ray_t ray_q[Latency];
   ends_t ends_q[Latency];
-  wire logic en = !valid_q[Latency-1] || ray_ready_i;
+  wire en = !valid_q[Latency-1] || ray_ready_i;
   assign ray_ready_o = en;
   assign ray_valid_o = valid_q[Latency-1];
   always_ff @(posedge clk_i) begin
@@ -66,15 +66,29 @@ module rdx_product #(
   // ---- control points of F, times 6 for D = 4 ----
   quad_t form[D+1];
   if (D == 2) begin : gen_quadric
-    wire logic unused = quartic_i;
+    wire unused = quartic_i;
     always_ff @(posedge clk_i) if (en) form <= quads_i;
   end else begin : gen_quartic
-    rdx_quartic u_quartic (.clk_i, .en_i(en), .quartic_i, .quads_i, .form_o(form));
+    rdx_quartic u_quartic (
+        .clk_i,
+        .en_i  (en),
+        .quartic_i,
+        .quads_i,
+        .form_o(form)
+    );
   end
 
   logic signed [W-1:0] scaled[D+1];
-  rdx_normalize #(.WIn(QuadAccWidth), .WOut(W), .Count(D + 1), .Limit(QuadAccWidth - 1)) u_normalize (
-      .clk_i, .en_i(en), .values_i(form), .values_o(scaled)
+  rdx_normalize #(
+      .WIn  (QuadAccWidth),
+      .WOut (W),
+      .Count(D + 1),
+      .Limit(QuadAccWidth - 1)
+  ) u_normalize (
+      .clk_i,
+      .en_i(en),
+      .values_i(form),
+      .values_o(scaled)
   );
 
   assign ray_o = ray_q[Latency-1];

@@ -13,11 +13,11 @@
 `default_nettype none
 
 module rdx_quartic (
-    input  wire logic            clk_i,
-    input  wire logic            en_i,
-    input  wire logic            quartic_i,
-    input  wire rdx_pkg::quad_t  quads_i[9],
-    output      rdx_pkg::quad_t  form_o [5]
+    input  wire logic           clk_i,
+    input  wire logic           en_i,
+    input  wire logic           quartic_i,
+    input  wire rdx_pkg::quad_t quads_i  [9],
+    output rdx_pkg::quad_t      form_o   [5]
 );
   import rdx_pkg::*;
 
@@ -33,7 +33,7 @@ module rdx_quartic (
   endfunction
 
   operand_t a_q[3], b_q[3];
-  quad_t    c_q[3], c_qq[3];  // Q3, beside the operands and the products
+  quad_t c_q[3], c_qq[3];  // Q3, beside the operands and the products
   quad_t    product_q[3][3];  // a[i] * b[j]
   quad_t    sum_q[5];
   always_ff @(posedge clk_i) begin
@@ -47,11 +47,11 @@ module rdx_quartic (
       for (int unsigned i = 0; i < 3; i++) begin
         for (int unsigned j = 0; j < 3; j++) product_q[i][j] <= multiply(a_q[i], b_q[j]);
       end
-      sum_q[0] <= product_q[0][0] + c_qq[0];
-      sum_q[1] <= product_q[0][1] + product_q[1][0] + c_qq[0] + c_qq[1];
-      sum_q[2] <= product_q[0][2] + product_q[2][0] + c_qq[0] + c_qq[2] + ((product_q[1][1] + c_qq[1]) <<< 2);
-      sum_q[3] <= product_q[1][2] + product_q[2][1] + c_qq[1] + c_qq[2];
-      sum_q[4] <= product_q[2][2] + c_qq[2];
+      sum_q[0]  <= product_q[0][0] + c_qq[0];
+      sum_q[1]  <= product_q[0][1] + product_q[1][0] + c_qq[0] + c_qq[1];
+      sum_q[2]  <= product_q[0][2] + product_q[2][0] + c_qq[0] + c_qq[2] + ((product_q[1][1] + c_qq[1]) <<< 2);
+      sum_q[3]  <= product_q[1][2] + product_q[2][1] + c_qq[1] + c_qq[2];
+      sum_q[4]  <= product_q[2][2] + c_qq[2];
       form_o[0] <= (sum_q[0] <<< 2) + (sum_q[0] <<< 1);
       form_o[1] <= (sum_q[1] <<< 1) + sum_q[1];
       form_o[2] <= sum_q[2];

@@ -17,17 +17,17 @@ module rdx_raster #(
     parameter int unsigned D = 4,
     localparam int unsigned Quads = D == 4 ? 9 : 3
 ) (
-    input  wire logic            clk_i,
-    input  wire logic            rst_ni,
-    input  wire logic            desc_valid_i,
-    output      logic            desc_ready_o,
-    input  wire logic [63:0]     desc_data_i,
-    output      logic            ray_valid_o,
-    input  wire logic            ray_ready_i,
-    output      rdx_pkg::ray_t   ray_o,
-    output      rdx_pkg::ends_t  ends_o,
-    output      logic            quartic_o,
-    output      rdx_pkg::quad_t  quads_o[Quads]
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic             desc_valid_i,
+    output logic                  desc_ready_o,
+    input  wire logic      [63:0] desc_data_i,
+    output logic                  ray_valid_o,
+    input  wire logic             ray_ready_i,
+    output rdx_pkg::ray_t         ray_o,
+    output rdx_pkg::ends_t        ends_o,
+    output logic                  quartic_o,
+    output rdx_pkg::quad_t        quads_o     [Quads]
 );
   import rdx_pkg::*;
 
@@ -37,24 +37,30 @@ module rdx_raster #(
   end
 
   // ---- descriptor: header words, then lane after lane ----
-  typedef enum logic [2:0] {Header, Rectangle, Depth, Load, Walk} state_e;
+  typedef enum logic [2:0] {
+    Header,
+    Rectangle,
+    Depth,
+    Load,
+    Walk
+  } state_e;
   state_e state_q;
   logic [3:0] lane_q;
   logic [2:0] index_q;
   pixel_t x0_q, x1_q, y1_q;
   pixel_t x_q, y_q;
-  logic   quartic_q;
+  logic quartic_q;
   surface_t surface_q;
   roots_t roots_q;
-  logic   paper_q;
+  logic paper_q;
   box_t [2:0] box_q;
   depth_t near_q, far_q;
 
-  wire logic load = desc_valid_i && desc_ready_o;
-  wire logic lane_end = index_q == (lane_q < 4'(CoordLanes) ? 3'd2 : 3'd5);
-  wire logic all_end = lane_end && lane_q == (quartic_q ? 4'(Lanes - 1) : 4'(CoordLanes + 2));
-  wire logic row_end = x_q == x1_q;
-  wire logic step = ray_valid_o && ray_ready_i;
+  wire load = desc_valid_i && desc_ready_o;
+  wire lane_end = index_q == (lane_q < 4'(CoordLanes) ? 3'd2 : 3'd5);
+  wire all_end = lane_end && lane_q == (quartic_q ? 4'(Lanes - 1) : 4'(CoordLanes + 2));
+  wire row_end = x_q == x1_q;
+  wire step = ray_valid_o && ray_ready_i;
   assign desc_ready_o = state_q != Walk;
   assign ray_valid_o  = state_q == Walk;
 
@@ -109,16 +115,32 @@ module rdx_raster #(
   // ---- lanes ----
   logic signed [CoordAccWidth-1:0] coords[CoordLanes];
   for (genvar i = 0; i < Lanes; i++) begin : gen_lane
-    wire logic load_lane = load && state_q == Load && lane_q == 4'(i);
+    wire load_lane = load && state_q == Load && lane_q == 4'(i);
     if (i < CoordLanes) begin : gen_coord
-      rdx_fdiff #(.W(CoordAccWidth), .Quadratic(1'b0)) u_fdiff (
-          .clk_i, .load_i(load_lane), .index_i(index_q), .word_i(desc_data_i),
-          .pixel_i(step), .row_i(step && row_end), .value_o(coords[i])
+      rdx_fdiff #(
+          .W(CoordAccWidth),
+          .Quadratic(1'b0)
+      ) u_fdiff (
+          .clk_i,
+          .load_i (load_lane),
+          .index_i(index_q),
+          .word_i (desc_data_i),
+          .pixel_i(step),
+          .row_i  (step && row_end),
+          .value_o(coords[i])
       );
     end else begin : gen_quad
-      rdx_fdiff #(.W(QuadAccWidth), .Quadratic(1'b1)) u_fdiff (
-          .clk_i, .load_i(load_lane), .index_i(index_q), .word_i(desc_data_i),
-          .pixel_i(step), .row_i(step && row_end), .value_o(quads_o[i-CoordLanes])
+      rdx_fdiff #(
+          .W(QuadAccWidth),
+          .Quadratic(1'b1)
+      ) u_fdiff (
+          .clk_i,
+          .load_i (load_lane),
+          .index_i(index_q),
+          .word_i (desc_data_i),
+          .pixel_i(step),
+          .row_i  (step && row_end),
+          .value_o(quads_o[i-CoordLanes])
       );
     end
   end

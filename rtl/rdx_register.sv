@@ -10,14 +10,14 @@
 module rdx_register #(
     parameter int unsigned W = 32
 ) (
-    input  wire  logic         clk_i,
-    input  wire  logic         rst_ni,
-    input  wire  logic         valid_i,
-    output       logic         ready_o,
-    input  wire  logic [W-1:0] data_i,
-    output       logic         valid_o,
-    input  wire  logic         ready_i,
-    output       logic [W-1:0] data_o
+    input  wire logic         clk_i,
+    input  wire logic         rst_ni,
+    input  wire logic         valid_i,
+    output logic              ready_o,
+    input  wire logic [W-1:0] data_i,
+    output logic              valid_o,
+    input  wire logic         ready_i,
+    output logic      [W-1:0] data_o
 );
 
   assign ready_o = !valid_o || ready_i;

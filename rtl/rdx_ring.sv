@@ -27,15 +27,15 @@ module rdx_ring #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
-    input  wire logic           ray_valid_i,
-    output      logic           ray_ready_o,
-    input  wire rdx_pkg::ray_t  ray_i,
-    input  wire segment_t       segment_i,
-    output      logic           hit_valid_o,
-    input  wire logic           hit_ready_i,
-    output      rdx_pkg::hit_t  hit_o
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    input  wire logic          ray_valid_i,
+    output logic               ray_ready_o,
+    input  wire rdx_pkg::ray_t ray_i,
+    input  wire segment_t      segment_i,
+    output logic               hit_valid_o,
+    input  wire logic          hit_ready_i,
+    output rdx_pkg::hit_t      hit_o
 );
   import rdx_pkg::*;
 
@@ -53,14 +53,25 @@ module rdx_ring #(
   assign control[0] = enter_q;
   assign segment[0] = enter_segment_q;
   for (genvar u = 0; u < U; u++) begin : gen_unit
-    rdx_step #(.N1(N1), .K(K), .W(W), .D(D), .Rules(Rules), .HalveStages(HalveStages)) u_step (
-        .clk_i, .control_i(control[u]), .segment_i(segment[u]), .control_o(control[u+1]), .segment_o(segment[u+1])
+    rdx_step #(
+        .N1(N1),
+        .K(K),
+        .W(W),
+        .D(D),
+        .Rules(Rules),
+        .HalveStages(HalveStages)
+    ) u_step (
+        .clk_i,
+        .control_i(control[u]),
+        .segment_i(segment[u]),
+        .control_o(control[u+1]),
+        .segment_o(segment[u+1])
     );
   end
 
   // ---- slot numbers: of the item that leaves the last unit, of the one behind it, and of the one before it ----
   slot_t leave_slot_q, behind_slot, enter_slot_q;
-  logic  filled_q;  // the ring has turned once since the reset: what leaves the last unit has entered it
+  logic filled_q;  // the ring has turned once since the reset: what leaves the last unit has entered it
   assign behind_slot = leave_slot_q == slot_t'(Slots - 1) ? '0 : leave_slot_q + 1'b1;
   always_ff @(posedge clk_i) begin
     enter_slot_q <= leave_slot_q;
@@ -83,7 +94,7 @@ module rdx_ring #(
   logic [$bits(first_t)-1:0] first_mem[Slots];
   first_t first_q;     // of the item that leaves the last unit
   segment_t again_q;   // of the item behind the wrap
-  wire logic take = ray_valid_i && ray_ready_o;
+  wire take = ray_valid_i && ray_ready_o;
   always_ff @(posedge clk_i) begin
     first_q <= first_mem[behind_slot];
     again_q <= first_q.segment;
@@ -93,26 +104,34 @@ module rdx_ring #(
   // ---- leaving: hand over the record ----
   control_t back, leave_d, leave_q;
   segment_t back_segment, leave_segment_q;
-  hit_t  record;
-  logic  give, given, more_roots;
+  hit_t record;
+  logic give, given, more_roots;
   assign back = control[U];
   assign back_segment = segment[U];
   assign more_roots = back.roots > 1 && back.pending && !(&back.steps);
   assign give = filled_q && (back.status == Hit || back.status == Done);
   assign record = '{
-      surface: first_q.surface,
-      x: first_q.x,
-      y: first_q.y,
-      hit: back.status == Hit,
-      last: back.status == Done || !more_roots,
-      t: 32'(back.t),
-      depth: back_segment.ends.depth_start,
-      point: back_segment.ends.start,
-      steps: back.steps
-  };
-  rdx_register #(.W($bits(hit_t))) u_out (
-      .clk_i, .rst_ni, .valid_i(give), .ready_o(given), .data_i(record),
-      .valid_o(hit_valid_o), .ready_i(hit_ready_i), .data_o(hit_o)
+          surface: first_q.surface,
+          x: first_q.x,
+          y: first_q.y,
+          hit: back.status == Hit,
+          last: back.status == Done || !more_roots,
+          t: 32'(back.t),
+          depth: back_segment.ends.depth_start,
+          point: back_segment.ends.start,
+          steps: back.steps
+      };
+  rdx_register #(
+      .W($bits(hit_t))
+  ) u_out (
+      .clk_i,
+      .rst_ni,
+      .valid_i(give),
+      .ready_o(given),
+      .data_i (record),
+      .valid_o(hit_valid_o),
+      .ready_i(hit_ready_i),
+      .data_o (hit_o)
   );
 
   always_comb begin

@@ -18,15 +18,15 @@ module rdx_select #(
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     localparam int unsigned J = 1 << N1
 ) (
-    input  wire  logic                 clk_i,
-    input  wire  logic signed [W-1:0]  cells_i   [J*D+1],
-    input  wire  logic        [J-1:0]  excluded_i,
-    input  wire  logic                 last_i,
-    input  wire  logic                 paper_i,
-    output       logic                 found_o,
-    output       logic                 more_o,
-    output       logic        [N1-1:0] pick_o,
-    output       logic        [N1-1:0] next_o
+    input  wire logic                 clk_i,
+    input  wire logic signed [ W-1:0] cells_i   [J*D+1],
+    input  wire logic        [ J-1:0] excluded_i,
+    input  wire logic                 last_i,
+    input  wire logic                 paper_i,
+    output logic                      found_o,
+    output logic                      more_o,
+    output logic             [N1-1:0] pick_o,
+    output logic             [N1-1:0] next_o
 );
 
   localparam bit HasCertified = (Rules & rdx_pkg::RuleCertified) != 0;
@@ -47,12 +47,12 @@ module rdx_select #(
     end
   end
 
-  wire logic [J-1:0] certified = (last_i ? changes : mixed) & ~excluded_i;
-  wire logic [J-1:0] crossed = changes & ~excluded_i;
+  wire  [J-1:0] certified = (last_i ? changes : mixed) & ~excluded_i;
+  wire  [J-1:0] crossed = changes & ~excluded_i;
   logic [J-1:0] mask;
 
   if (!HasPaper) begin : gen_certified
-    wire logic unused = &{1'b0, paper_i, crossed};
+    wire unused = &{1'b0, paper_i, crossed};
     assign mask = certified;
   end else begin : gen_paper
     // The guess takes its time; the masks wait for it.
@@ -62,21 +62,35 @@ module rdx_select #(
     for (genvar j = 0; j <= J; j++) begin : gen_boundary
       assign boundaries[j] = cells_i[j*D];
     end
-    rdx_guess #(.W(W), .N1(N1)) u_guess (.clk_i, .values_i(boundaries), .cell_o(guess));
+    rdx_guess #(
+        .W (W),
+        .N1(N1)
+    ) u_guess (
+        .clk_i,
+        .values_i(boundaries),
+        .cell_o  (guess)
+    );
 
     typedef struct packed {
       logic         guessed;  // Case 1: no sign change
       logic [J-1:0] mask;     // otherwise
     } choice_t;
     choice_t choice_d[1], choice_q[1];
-    wire logic by_paper = paper_i || !HasCertified;
+    wire by_paper = paper_i || !HasCertified;
     assign choice_d[0] = '{guessed: by_paper && changes == '0, mask: by_paper ? crossed : certified};
-    rdx_delay #(.T(choice_t), .Depth(Wait)) u_wait (.clk_i, .data_i(choice_d), .data_o(choice_q));
+    rdx_delay #(
+        .T(choice_t),
+        .Depth(Wait)
+    ) u_wait (
+        .clk_i,
+        .data_i(choice_d),
+        .data_o(choice_q)
+    );
     assign mask = choice_q[0].guessed ? J'(1) << guess : choice_q[0].mask;
   end
 
   // The first two candidates
-  logic          found_d, more_d;
+  logic found_d, more_d;
   logic [N1-1:0] pick_d, next_d;
   always_comb begin
     found_d = 1'b0;

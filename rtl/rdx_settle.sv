@@ -23,16 +23,24 @@ module rdx_settle #(
     input  wire control_t control_i,
     input  wire segment_t segment_i,
     input  wire logic     dead_i,
-    output      control_t control_o,
-    output      segment_t segment_o
+    output control_t      control_o,
+    output segment_t      segment_o
 );
   import rdx_pkg::*;
 
   // ---- control points ----
   logic signed [W-1:0] b[D+1], scaled[D+1];
   always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
-  rdx_normalize #(.WIn(W), .WOut(W), .Count(D + 1), .Limit(norm_limit(N1))) u_normalize (
-      .clk_i, .en_i(1'b1), .values_i(b), .values_o(scaled)
+  rdx_normalize #(
+      .WIn  (W),
+      .WOut (W),
+      .Count(D + 1),
+      .Limit(norm_limit(N1))
+  ) u_normalize (
+      .clk_i,
+      .en_i(1'b1),
+      .values_i(b),
+      .values_o(scaled)
   );
 
   // ---- first clock: the middle of the cell, and whether it holds a sign change ----
@@ -40,27 +48,41 @@ module rdx_settle #(
   for (genvar axis = 0; axis < 3; axis++) begin : gen_middle
     coord_t ends[2], left[2], right[2];
     assign ends = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
-    rdx_halve #(.W(CoordWidth), .D(1), .Stages(0)) u_halve (
-        .clk_i, .b_i(ends), .left_o(left), .right_o(right)
+    rdx_halve #(
+        .W(CoordWidth),
+        .D(1),
+        .Stages(0)
+    ) u_halve (
+        .clk_i,
+        .b_i(ends),
+        .left_o(left),
+        .right_o(right)
     );
     assign middle.start[axis] = left[1];
     assign middle.stop[axis]  = right[0];
-    wire logic unused = &{1'b0, left[0], right[1]};
+    wire unused = &{1'b0, left[0], right[1]};
   end
   depth_t depths[2], left_depth[2], right_depth[2];
   assign depths = '{segment_i.ends.depth_start, segment_i.ends.depth_stop};
-  rdx_halve #(.W(DepthWidth), .D(1), .Stages(0)) u_halve_depth (
-      .clk_i, .b_i(depths), .left_o(left_depth), .right_o(right_depth)
+  rdx_halve #(
+      .W(DepthWidth),
+      .D(1),
+      .Stages(0)
+  ) u_halve_depth (
+      .clk_i,
+      .b_i(depths),
+      .left_o(left_depth),
+      .right_o(right_depth)
   );
   assign middle.depth_start = left_depth[1];
   assign middle.depth_stop  = right_depth[0];
-  wire logic unused_depth = &{1'b0, left_depth[0], right_depth[1]};
+  wire unused_depth = &{1'b0, left_depth[0], right_depth[1]};
 
-  wire logic run = control_i.status == Run;
-  wire logic last = run && !dead_i && control_i.level == 5'(K - 1);
+  wire run = control_i.status == Run;
+  wire last = run && !dead_i && control_i.level == 5'(K - 1);
   control_t control_q;
-  ends_t    ends_q, ends_qq;
-  logic     dead_q, last_q, changes_q;
+  ends_t ends_q, ends_qq;
+  logic dead_q, last_q, changes_q;
   always_ff @(posedge clk_i) begin
     control_q <= control_i;
     ends_q    <= last ? middle : segment_i.ends;
@@ -72,9 +94,15 @@ module rdx_settle #(
 
   // ---- second clock: the verdict ----
   coord_t point[3][2];
-  logic   point_outside;
+  logic point_outside;
   always_comb for (int unsigned axis = 0; axis < 3; axis++) point[axis] = '{default: ends_q.start[axis]};
-  rdx_outside #(.J(1)) u_point (.boundaries_i(point), .box_i(control_q.box), .outside_o(point_outside));
+  rdx_outside #(
+      .J(1)
+  ) u_point (
+      .boundaries_i(point),
+      .box_i(control_q.box),
+      .outside_o(point_outside)
+  );
 
   control_t control_d;
   always_comb begin

@@ -27,8 +27,8 @@ module rdx_step #(
     input  wire logic     clk_i,
     input  wire control_t control_i,
     input  wire segment_t segment_i,
-    output      control_t control_o,
-    output      segment_t segment_o
+    output control_t      control_o,
+    output segment_t      segment_o
 );
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
@@ -44,39 +44,62 @@ module rdx_step #(
     $fatal(1, "rdx_step: W = %0d; allowed: 16 to 48", W);
   end
 
-  // ---- cells: control points, coordinates and depth, all by the same averages ----
+  // ---- cells: control points, and what is carried linearly, by the same averages ----
   logic signed [W-1:0] b[D+1], cells[J*D+1], cells_q[J*D+1];
   always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
-  rdx_cells #(.W(W), .D(D), .N1(N1), .HalveStages(HalveStages)) u_cells (.clk_i, .b_i(b), .cells_o(cells));
-  rdx_delay #(.T(logic signed [W-1:0]), .Count(J * D + 1), .Depth(SelectLatency)) u_cells_q (
-      .clk_i, .data_i(cells), .data_o(cells_q)
+  rdx_cells #(
+      .W(W),
+      .D(D),
+      .N1(N1),
+      .HalveStages(HalveStages)
+  ) u_cells (
+      .clk_i,
+      .b_i(b),
+      .cells_o(cells)
+  );
+  rdx_delay #(
+      .T(logic signed [W-1:0]),
+      .Count(J * D + 1),
+      .Depth(SelectLatency)
+  ) u_cells_q (
+      .clk_i,
+      .data_i(cells),
+      .data_o(cells_q)
   );
 
-  coord_t coords[3][J+1], coords_q[3][J+1];
-  for (genvar axis = 0; axis < 3; axis++) begin : gen_axis
-    coord_t ends[2];
-    assign ends = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
-    rdx_cells #(.W(CoordWidth), .D(1), .N1(N1), .HalveStages(HalveStages)) u_cells (
-        .clk_i, .b_i(ends), .cells_o(coords[axis])
-    );
-    rdx_delay #(.T(coord_t), .Count(J + 1), .Depth(SelectLatency)) u_cells_q (
-        .clk_i, .data_i(coords[axis]), .data_o(coords_q[axis])
-    );
-  end
-
-  depth_t depths[2], depth[J+1], depth_q[J+1];
-  assign depths = '{segment_i.ends.depth_start, segment_i.ends.depth_stop};
-  rdx_cells #(.W(DepthWidth), .D(1), .N1(N1), .HalveStages(HalveStages)) u_depth (
-      .clk_i, .b_i(depths), .cells_o(depth)
-  );
-  rdx_delay #(.T(depth_t), .Count(J + 1), .Depth(SelectLatency)) u_depth_q (
-      .clk_i, .data_i(depth), .data_o(depth_q)
+  coord_t coords[3][J+1];
+  logic [N1-1:0] pick, next;
+  segment_t cell_d, cell_q;
+  rdx_carry #(
+      .N1(N1),
+      .HalveStages(HalveStages),
+      .Wait(SelectLatency)
+  ) u_carry (
+      .clk_i,
+      .ends_i  (segment_i.ends),
+      .coords_o(coords),
+      .pick_i  (pick),
+      .cell_o  (cell_d.ends)
   );
 
   control_t control[1], split[1], chosen[1];  // as it came, when the cells are there, and when the choice is
   assign control[0] = control_i;
-  rdx_delay #(.T(control_t), .Depth(CellsLatency)) u_split (.clk_i, .data_i(control), .data_o(split));
-  rdx_delay #(.T(control_t), .Depth(SelectLatency)) u_chosen (.clk_i, .data_i(split), .data_o(chosen));
+  rdx_delay #(
+      .T(control_t),
+      .Depth(CellsLatency)
+  ) u_split (
+      .clk_i,
+      .data_i(control),
+      .data_o(split)
+  );
+  rdx_delay #(
+      .T(control_t),
+      .Depth(SelectLatency)
+  ) u_chosen (
+      .clk_i,
+      .data_i(split),
+      .data_o(chosen)
+  );
 
   // ---- choice: cells before t_min and cells outside of the box are passed over ----
   // the digits of t_min at a level, 0 unless they are followed
@@ -87,31 +110,40 @@ module rdx_step #(
     return follow ? digit : '0;
   endfunction
 
-  wire logic [N1-1:0] first = first_cell(split[0].level, split[0].t_min, split[0].follow);
-  wire logic [N1-1:0] chosen_first = first_cell(chosen[0].level, chosen[0].t_min, chosen[0].follow);
-  logic [J-1:0] outside;
-  rdx_outside #(.J(J)) u_outside (.boundaries_i(coords), .box_i(split[0].box), .outside_o(outside));
+  wire  [N1-1:0] first = first_cell(split[0].level, split[0].t_min, split[0].follow);
+  wire  [N1-1:0] chosen_first = first_cell(chosen[0].level, chosen[0].t_min, chosen[0].follow);
+  logic [ J-1:0] outside;
+  rdx_outside #(
+      .J(J)
+  ) u_outside (
+      .boundaries_i(coords),
+      .box_i(split[0].box),
+      .outside_o(outside)
+  );
 
   logic found, more;
-  logic [N1-1:0] pick, next;
-  rdx_select #(.W(W), .D(D), .N1(N1), .Rules(Rules)) u_select (
-      .clk_i, .cells_i(cells), .excluded_i(outside | ~({J{1'b1}} << first)),
-      .last_i(split[0].level == 5'(K - 1)), .paper_i(split[0].paper),
-      .found_o(found), .more_o(more), .pick_o(pick), .next_o(next)
+  rdx_select #(
+      .W(W),
+      .D(D),
+      .N1(N1),
+      .Rules(Rules)
+  ) u_select (
+      .clk_i,
+      .cells_i(cells),
+      .excluded_i(outside | ~({J{1'b1}} << first)),
+      .last_i(split[0].level == 5'(K - 1)),
+      .paper_i(split[0].paper),
+      .found_o(found),
+      .more_o(more),
+      .pick_o(pick),
+      .next_o(next)
   );
 
   // ---- pick: the chosen cell becomes the item's, its number the next digits of t ----
   control_t picked_d, picked_q;
-  segment_t cell_d, cell_q;
-  logic     dead_q;
+  logic dead_q;
   always_comb begin
     for (int unsigned i = 0; i <= D; i++) cell_d.b[i] = cells_q[32'(pick)*D+i];
-    for (int unsigned axis = 0; axis < 3; axis++) begin
-      cell_d.ends.start[axis] = coords_q[axis][(N1+1)'(pick)];
-      cell_d.ends.stop[axis]  = coords_q[axis][(N1+1)'(pick)+1];
-    end
-    cell_d.ends.depth_start = depth_q[(N1+1)'(pick)];
-    cell_d.ends.depth_stop  = depth_q[(N1+1)'(pick)+1];
 
     picked_d = chosen[0];
     if (chosen[0].status == Run) begin
@@ -137,8 +169,18 @@ module rdx_step #(
     dead_q   <= !found;
   end
 
-  rdx_settle #(.N1(N1), .K(K), .W(W), .D(D)) u_settle (
-      .clk_i, .control_i(picked_q), .segment_i(cell_q), .dead_i(dead_q), .control_o, .segment_o
+  rdx_settle #(
+      .N1(N1),
+      .K (K),
+      .W (W),
+      .D (D)
+  ) u_settle (
+      .clk_i,
+      .control_i(picked_q),
+      .segment_i(cell_q),
+      .dead_i(dead_q),
+      .control_o,
+      .segment_o
   );
 
 endmodule

@@ -8,12 +8,13 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+from rich.console import Console
+from rich.table import Table
+
 from raydix.chords import chord_quads, paper_float, random_chords, rates, trace_chords
 from raydix.config import Config
 from raydix.oracle import chord_roots, quadrics
 from raydix.surfaces import form
-from rich.console import Console
-from rich.table import Table
 
 TORUS = SimpleNamespace(type="torus", R=0.7, r=0.25)
 
@@ -36,6 +37,11 @@ def measure(count, seed, radius, width):
             yield n1, steps, f"{rule}, quartic, golden model", rates(t[:, 0], exact, 24, taken)
 
 
+def steps_text(mean):
+    """A mean of steps; nothing where it was not counted."""
+    return "" if np.isnan(mean) else f"{mean:.2f}"
+
+
 def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -46,11 +52,19 @@ def main():
     parser.add_argument("--json", type=Path, help="write the figures there, too")
     args = parser.parse_args()
     table = Table(title=f"torus R = 0.7, r = 0.25; {args.chords} chords, seed {args.seed}; n = 24, W = {args.width}")
-    for name in ("n1, K", "rule and indicator", "chords that hit", "missed", "wrong root", "false hits", "steps/hit", "/miss"):
+    for name in (
+        "n1, K",
+        "rule and indicator",
+        "chords that hit",
+        "missed",
+        "wrong root",
+        "false hits",
+        "steps/hit",
+        "/miss",
+    ):
         table.add_column(name, justify="left" if "rule" in name else "right")
     rows = list(measure(args.chords, args.seed, args.radius, args.width))
     for n1, steps, label, r in rows:
-        number = (lambda v: "" if v != v else f"{v:.2f}")
         table.add_row(
             f"{n1}, {steps}",
             label,
@@ -58,8 +72,8 @@ def main():
             f"{r.missed:.4%}",
             f"{r.wrong:.4%}",
             str(r.false),
-            number(r.steps_per_hit),
-            number(r.steps_per_miss),
+            steps_text(r.steps_per_hit),
+            steps_text(r.steps_per_miss),
         )
     Console(width=120).print(table)
     if args.json:

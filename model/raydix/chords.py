@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Random chords through one surface: how often a rule misses a root or finds a later one.
 
-A study of the method apart from any picture: the golden model's product and ring on arbitrary segments h to e, and the paper's rule
-in float64 with the true distance as its indicator.
+A study of the method apart from any picture: the golden model's product and ring on arbitrary segments h to e,
+and the paper's rule in float64 with the true distance as its indicator.
 """
 
 from collections.abc import Callable
@@ -104,7 +104,10 @@ def rates(t: np.ndarray, exact: np.ndarray, digits: int, steps: np.ndarray | Non
     off = np.abs(exact - value[:, None])
     nearest = np.argmin(np.where(np.isnan(off), np.inf, off), axis=1)
     wrong = hit & found & (nearest > 0) & (off[:, 0] > 16 * 2.0**-digits)
-    mean = (lambda mask: float(steps[mask].mean()) if steps is not None and mask.any() else float("nan"))
+
+    def mean(mask):
+        return float(steps[mask].mean()) if steps is not None and mask.any() else float("nan")
+
     return Rates(
         int(hit.sum()),
         float((hit & ~found).sum() / hit.sum()),

@@ -37,7 +37,7 @@ def _size(text: str) -> tuple[int, int]:
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", type=Path, help="scene file (TOML)")
     parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
-    parser.add_argument("--n1", type=int, default=3, metavar="N", help="binary digits fixed per step, 1 to 4 (default: 3)")
+    parser.add_argument("--n1", type=int, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)")
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
     parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
@@ -48,7 +48,7 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="raydix", description="Ray casting of analytic surfaces, a few binary digits of the ray parameter per step."
+        prog="raydix", description="Ray casting of analytic surfaces, a few digits of the ray parameter per step."
     )
     commands = parser.add_subparsers(dest="command", required=True)
     render = commands.add_parser("render", help="render a scene: PNG, EXR and npz")

@@ -324,13 +324,9 @@ def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix
     )
     x0, y0, x1, y1 = rect
     a, b = camera.a(x0), camera.b(y0)
-    h, e = (
-        (place.at(z, a, b), z * camera.pixel * place.r, -z * camera.pixel * place.u) for z in (near, far)
-    )
+    h, e = ((place.at(z, a, b), z * camera.pixel * place.r, -z * camera.pixel * place.u) for z in (near, far))
     columns, rows = x1 - x0 + 1, y1 - y0 + 1
-    coordinates, box, origin, unit = _coordinate_words(
-        scene, surface, index, h, e, low, high, cut, columns, rows
-    )
+    coordinates, box, origin, unit = _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows)
     roots = roots_wanted(surface, quartic, config)
     head = index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | quartic << QUARTIC_AT
     for axis in range(3):

@@ -49,7 +49,7 @@ def renderer(n1, steps, width, degree):
 
 
 def scratch(config):
-    """Working vectors of ``render_rows`` for a :class:`~raydix.config.Config`: state, item, first, quads, cells, nodes."""
+    """Working vectors of ``render_rows`` for a configuration: state, item, first, quads, cells, nodes."""
     size = config.degree + 1
     return (
         zeros(ROWS * LANES).reshape(ROWS, LANES),

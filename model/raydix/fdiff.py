@@ -14,7 +14,7 @@ ROWS = 8
 
 @kernel
 def load(state, lane, words, word, quadratic):
-    """Lane at the rectangle's first pixel: value, dx, dy and, if ``quadratic``, dxx, dxy, dyy from ``words[word]`` on."""
+    """Lane at the rectangle's first pixel: value, dx, dy, if ``quadratic`` dxx, dxy, dyy, from ``words[word]`` on."""
     state[VALUE, lane] = words[word]
     state[ROW_VALUE, lane] = words[word]
     state[SLOPE, lane] = words[word + 1]

@@ -23,7 +23,8 @@ if INTERPRETED:
 else:
     import numba
 
-    # numba looks only at the file that a kernel stands in, not at those that it calls: one cache per state of the sources
+    # numba looks only at the file that a kernel stands in, not at those that it calls: one cache for each state
+    # of the sources
     _sources = sorted(Path(__file__).parent.glob("*.py"))
     _digest = hashlib.sha256(b"".join(p.read_bytes() for p in _sources)).hexdigest()[:16]
     numba.config.CACHE_DIR = str(Path(__file__).resolve().parents[2] / "build" / "numba" / _digest)

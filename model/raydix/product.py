@@ -1,27 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Control points of an item from those of its quadrics (mirrors ``rtl/rdx_product.sv``)."""
 
-from .formats import OPERAND_SHIFT, OPERAND_WIDTH, PRODUCT_DROP, QUAD_ACC_WIDTH
+from .formats import QUAD_ACC_WIDTH
 from .kernel import kernel
 from .normalize import normalize
-
-
-@kernel
-def operand(value):
-    """Accumulator to operand of the product: s64p0 / 2^27 rounded half up, s36p0."""
-    return (value + (1 << (OPERAND_SHIFT - 1))) >> OPERAND_SHIFT
-
-
-@kernel
-def multiply(a, b):
-    """floor(a * b / 2^12) of two s36p0 operands, formed from halves of 18 bits so that 64 bits suffice."""
-    half = OPERAND_WIDTH // 2
-    mask = (1 << half) - 1
-    a1, a0 = a >> half, a & mask
-    b1, b0 = b >> half, b & mask
-    high = (a1 * b1) << (2 * half - PRODUCT_DROP)
-    middle = (a1 * b0 + a0 * b1) << (half - PRODUCT_DROP)
-    return high + middle + ((a0 * b0) >> PRODUCT_DROP)
+from .quartic import quartic_form
 
 
 @kernel
@@ -30,31 +13,11 @@ def product(quads, quartic, out, at, width, degree):
 
     quads   nine accumulators: q(h,h), q(h,e), q(e,e) of Q3, then of Q1, then of Q2
     out     gets degree + 1 values from ``at`` on, sWp0
-    For degree 4 everything is formed times 6, so that the weights 1/2 and 1/6 of the product of two quadratics and of
-    degree elevation are whole numbers: exact in 64 bits. Source: docs/method.md, "Quartics".
+    Source: docs/method.md, "Quartics".
     """
-    c0, c1, c2 = quads[0], quads[1], quads[2]
     if degree == 2:
-        out[at] = c0
-        out[at + 1] = c1
-        out[at + 2] = c2
+        for i in range(3):
+            out[at + i] = quads[i]
     else:
-        f0 = c0
-        f1 = c0 + c1
-        f2 = c0 + 4 * c1 + c2
-        f3 = c1 + c2
-        f4 = c2
-        if quartic:
-            a0, a1, a2 = operand(quads[3]), operand(quads[4]), operand(quads[5])
-            b0, b1, b2 = operand(quads[6]), operand(quads[7]), operand(quads[8])
-            f0 += multiply(a0, b0)
-            f1 += multiply(a0, b1) + multiply(a1, b0)
-            f2 += multiply(a0, b2) + 4 * multiply(a1, b1) + multiply(a2, b0)
-            f3 += multiply(a1, b2) + multiply(a2, b1)
-            f4 += multiply(a2, b2)
-        out[at] = 6 * f0
-        out[at + 1] = 3 * f1
-        out[at + 2] = f2
-        out[at + 3] = 3 * f3
-        out[at + 4] = 6 * f4
+        quartic_form(quads, quartic, out, at)
     normalize(out, at, degree + 1, QUAD_ACC_WIDTH, width, QUAD_ACC_WIDTH - 1)

@@ -79,7 +79,7 @@ def load_lanes(state, words):
 
 @kernel
 def sample(state, first, quads):
-    """At the current pixel: coordinates of h and e into ``first`` (s2p46 to s2p30, floor), accumulators into ``quads``."""
+    """At the current pixel: ends h and e into ``first`` (s2p46 to s2p30, floor), accumulators into ``quads``."""
     for axis in range(3):
         for end in range(2):
             value = state[VALUE, axis * 2 + end]

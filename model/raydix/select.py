@@ -4,7 +4,7 @@
 A value counts as positive if it is above zero; zero counts as not positive. A mask has bit j for cell j.
 """
 
-from .formats import COORD_FRAC
+from .guess import guess
 from .halve import halve
 from .kernel import kernel
 
@@ -23,33 +23,6 @@ def mixed(cells, at, degree):
 def changes(cells, at, degree):
     """The cell's ends differ in sign: it holds a root."""
     return (cells[at] > 0) != (cells[at + degree] > 0)
-
-
-@kernel
-def beyond(start, end, box):
-    """One axis: both ends lie beyond the same face of the box [-2^(1-box), 2^(1-box)); s2p30."""
-    face = 1 << (COORD_FRAC + 1 - box)
-    return (start < -face and end < -face) or (start >= face and end >= face)
-
-
-@kernel
-def guess(cells, degree, count):
-    """Paper rule, Case 1 (equations 8, 9): a cell beside the boundary with the smallest magnitude.
-
-    ``cells`` holds ``count`` cells with shared ends. Of the two cells beside that boundary (the lowest on a
-    tie) it is the one with the smaller second difference; on a tie the right one.
-    """
-    best = 0
-    for j in range(1, count + 1):
-        if abs(cells[j * degree]) < abs(cells[best * degree]):
-            best = j
-    if best == 0:
-        return 0
-    if best == count:
-        return count - 1
-    right = abs(cells[best * degree] - cells[(best + 1) * degree])
-    left = abs(cells[(best - 1) * degree] - cells[best * degree])
-    return best if right <= left else best - 1
 
 
 @kernel

@@ -4,27 +4,12 @@
 from .cells import subdivide
 from .formats import STEPS_MAX
 from .halve import average
-from .item import AGAIN, BOX, DEPTH, DONE, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
+from .item import AGAIN, DEPTH, DONE, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
 from .kernel import kernel
 from .normalize import norm_limit, normalize
-from .select import beyond, certified, changes, paper
-
-
-@kernel
-def outside_cells(item, cells, n1):
-    """Mask of the cells that lie beyond a face of the surface's box. ``cells`` is scratch."""
-    mask = 0
-    for axis in range(3):
-        box = item[BOX + axis]
-        if box == 0:
-            continue  # no face cuts this axis
-        cells[0] = item[C + axis]
-        cells[1] = item[C + 3 + axis]
-        subdivide(cells, 1, n1)
-        for j in range(1 << n1):
-            if beyond(cells[j], cells[j + 1], box):
-                mask |= 1 << j
-    return mask
+from .outside import outside_cells
+from .select import certified, changes, paper
+from .settle import settle
 
 
 @kernel
@@ -39,27 +24,11 @@ def descend(item, at, other, pick, n1):
 
 
 @kernel
-def settle(item):
-    """After the last digit: shrink the cell to its middle, the hit point; say whether that is inside the box."""
-    inside = True
-    for axis in range(3):
-        middle = average(item[C + axis], item[C + 3 + axis])
-        item[C + axis] = middle
-        item[C + 3 + axis] = middle
-        if beyond(middle, middle, item[BOX + axis]):
-            inside = False
-    middle = average(item[DEPTH], item[DEPTH + 1])
-    item[DEPTH] = middle
-    item[DEPTH + 1] = middle
-    return inside
-
-
-@kernel
 def step(item, cells, nodes, n1, steps, width, degree):
     """Fix the next n1 digits of ``item[T]``, or find that no cell is left.
 
-    item    fields as in item.py, STATUS = RUN; changed in place. Its new STATUS is RUN while digits are
-            left, HIT with the point in C and DEPTH when the last is fixed, AGAIN (restart at TNEXT) or DONE at a dead end.
+    item    fields as in item.py, STATUS = RUN; changed in place. Its new STATUS is RUN while digits are left,
+            HIT with the point in C and DEPTH when the last is fixed, AGAIN (restart at TNEXT) or DONE at a dead end.
     cells   scratch for J*degree + 1 values, nodes for (n1+1)*(degree+1)
     Source: docs/method.md, "A step".
     """
