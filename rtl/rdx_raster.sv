@@ -68,7 +68,7 @@ module rdx_raster #(
     if (!rst_ni) begin
       state_q <= Header;
     end else begin
-      unique case (state_q)
+      case (state_q)
         Header:    if (load) state_q <= Rectangle;
         Rectangle: if (load) state_q <= Depth;
         Depth:     if (load) state_q <= Load;
@@ -80,7 +80,7 @@ module rdx_raster #(
 
   always_ff @(posedge clk_i) begin
     if (load) begin
-      unique case (state_q)
+      case (state_q)
         Header: begin
           surface_q <= desc_data_i[0+:SurfaceWidth];
           roots_q <= desc_data_i[SurfaceWidth+:RootsWidth];

@@ -244,9 +244,7 @@ def test_missing_file_is_refused(tmp_path):
 
 def test_all_problems_are_reported(tmp_path):
     """One refusal lists the problems of all tables, a line each, and nothing of pydantic's."""
-    text = (
-        CAMERA.replace("2.5", "nan") + "vfov = 0\n" + TORUS + "scale = 0\nshine = 1\n" + PLANE + "angle = 1\n"
-    )
+    text = CAMERA.replace("2.5", "nan") + "vfov = 0\n" + TORUS + "scale = 0\nshine = 1\n" + PLANE + "angle = 1\n"
     lines = refusal(write(tmp_path, text)).splitlines()
     keys = [line.split(": ")[1] for line in lines]
     assert keys == ["camera.eye[2]", "camera.vfov", S0 + ".scale", S0 + ".shine",

@@ -225,9 +225,7 @@ def test_empty_ellipsoid_has_a_box_of_no_size():
     assert surfaces.bounding_box(surface) == ((1, 0, 0), (1, 0, 0))
 
 
-@pytest.mark.parametrize(
-    "coefficients", [(1, 1, 0, 0, 0, 0, 0, 0, -1, 0), (1, 1, 0.25, 0, 1, 0, 0, 0, 0, -1)]
-)
+@pytest.mark.parametrize("coefficients", [(1, 1, 0, 0, 0, 0, 0, 0, -1, 0), (1, 1, 0.25, 0, 1, 0, 0, 0, 0, -1)])
 def test_singular_quadric_is_open(coefficients):
     """A quadratic part of rank 2 is not definite, though its other eigenvalues have one sign."""
     surface = scene.Quadric(type="quadric", coefficients=coefficients, clip=CLIP)
@@ -253,7 +251,5 @@ def test_gradient_is_the_derivative(name):
     h = 1e-5
     for i in range(3):
         step = h * np.eye(3)[i]
-        slope = (
-            equation(*np.moveaxis(points + step, -1, 0)) - equation(*np.moveaxis(points - step, -1, 0))
-        ) / (2 * h)
+        slope = (equation(*np.moveaxis(points + step, -1, 0)) - equation(*np.moveaxis(points - step, -1, 0))) / (2 * h)
         np.testing.assert_allclose(got[..., i], slope, rtol=1e-6, atol=1e-6)

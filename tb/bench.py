@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the module tests share: building and running a simulation, ports and structs, the check of a pipeline.
+
+A file ``test_<module>.py`` has two sides. Functions named ``test_...`` belong to pytest, which builds the module and
+starts the simulator by :func:`run`. Functions marked ``@cocotb.test`` (whose names do not begin with ``test_``, so that
+pytest leaves them alone) run inside of the simulator. Streams with valid and ready are in ``streams.py``.
+"""
+
+import hashlib
+import itertools
+import os
+import random
+import secrets
+import shutil
+import tempfile
+from pathlib import Path
+from unittest.mock import patch
+from xml.etree import ElementTree
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import FallingEdge, ReadOnly, Timer
+
+from raydix import formats
+from raydix.rtl import ROOT, RTL, environment, has_fst, sources
+
+BUILD = ROOT / "build" / "tb"
+WAVES = ROOT / "build" / "waves"
+
+# Verilator's runtime is compiled once and copied. The rest is one small file: compiling it at -O0 costs less than
+# the faster simulation would save. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled headers.
+MAKE_VARIABLES = "CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_FAST=-O0 OPT_SLOW=-O0"
+
+
+# ---------------------------------------------------------------- outside of the simulator
+
+
+def label(parameters):
+    """Name of a set of parameters: ``W3-D4``."""
+    return "-".join(f"{name}{value}" for name, value in parameters.items()) or "default"
+
+
+def build(toplevel, parameters, waves=None):
+    """Folder with the simulator of ``toplevel``; built unless the same sources were built before.
+
+    waves   "vcd" or "fst" for one that can write waveforms
+    """
+    from cocotb_tools.runner import get_runner
+
+    files = [*sources(), *sorted(RTL.glob("*.svh"))]
+    facts = b"".join(p.read_bytes() for p in files) + repr((sorted(parameters.items()), waves, MAKE_VARIABLES)).encode()
+    target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
+    if (target / toplevel).exists():
+        return target
+    runtime = BUILD / f"runtime-{waves}"
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
+        work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
+        shutil.copytree(runtime, work) if runtime.exists() else work.mkdir()
+        try:
+            get_runner("verilator").build(
+                hdl_toplevel=toplevel, sources=sources(), includes=[RTL], parameters=parameters, build_dir=work,
+                build_args=["--assert", "-Wno-fatal", *([f"--trace-{waves}", "--trace-structs"] if waves else [])],
+                waves=bool(waves), log_file=log,
+            )  # fmt: skip
+        except RuntimeError as error:
+            tail = "\n".join(log.read_text().splitlines()[-15:])
+            raise RuntimeError(f"{toplevel} {parameters} does not build; log: {log}\n{tail}") from error
+        for name, files in ((runtime, work.glob("verilated*.o")), (target, [work / toplevel])):
+            place = Path(folder, name.name)
+            place.mkdir()
+            for file in files:
+                shutil.move(file, place)
+            if not name.exists():
+                os.replace(place, name)
+        log.unlink()
+    return target
+
+
+def run(module, toplevel, parameters=None, checks=None):
+    """Build ``toplevel``, run the cocotb tests of the test file ``module`` in it; raise where one fails or none ran.
+
+    module      name of the calling test file: ``__name__``
+    parameters  of the toplevel; the cocotb tests read them from the design
+    checks      names of the cocotb tests to be run; all if not given
+    The environment variables SEED and WAVES=1 are those of ``make test``.
+    """
+    from cocotb_tools.runner import get_results, get_runner
+
+    parameters = parameters or {}
+    seed = int(os.environ.get("SEED") or secrets.randbelow(1 << 31))
+    name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{'-'.join(checks)}" if checks else "")
+    replay = f"make test T={module.removeprefix('test_')} SEED={seed}"
+    print(f"{name}: SEED={seed}, replay: {replay}")
+    waves = ("fst" if has_fst() else "vcd") if os.environ.get("WAVES") not in (None, "", "0") else None
+    arguments = []
+    if waves:
+        file = WAVES / f"{name}.{waves}"
+        WAVES.mkdir(parents=True, exist_ok=True)
+        arguments = ["--trace", "--trace-file", str(file)]
+        print(f"waveform ({'lz4.h found' if waves == 'fst' else 'no lz4.h, so not fst'}): {file}")
+    settings = {**environment(), "MAKEFLAGS": MAKE_VARIABLES, "WAVES": ""}
+    with patch.dict(os.environ, settings):
+        os.environ.pop("PYTEST_CURRENT_TEST", None)  # else the runner ends the process where a test fails
+        target = build(toplevel, parameters, waves)
+        with tempfile.TemporaryDirectory(prefix="run-", dir=BUILD) as folder:
+            results = Path(folder, "results.xml")
+            ended = ""
+            try:
+                get_runner("verilator").test(
+                    test_module=module, hdl_toplevel=toplevel, hdl_toplevel_lang="verilog", build_dir=target,
+                    test_dir=folder, results_xml=str(results), seed=seed, test_args=arguments, testcase=checks,
+                    extra_env={"RAYDIX_INTERPRET": "1", "RAYDIX_REPLAY": replay},
+                )  # fmt: skip
+            except RuntimeError as error:
+                ended = f" ({error}: an assertion of the design, or the simulator itself)"
+            assert results.exists(), f"{name}: no results{ended}; {replay}"
+            count, failed = get_results(results)
+            cases = list(ElementTree.parse(results).getroot().iter("testcase"))
+            bad = [c.get("name") for c in cases if c.find("failure") is not None or c.find("error") is not None]
+            executed = count - len([c for c in cases if c.find("skipped") is not None])
+    assert executed >= max(1, len(checks or ())), f"{name}: {executed} checks were executed"
+    assert not failed and not ended, f"{name}: {failed} of {count} failed: {', '.join(map(str, bad))}{ended}; {replay}"
+
+
+# ---------------------------------------------------------------- numbers and structs
+
+
+def signed(value, width):
+    """The number that the low ``width`` bits of ``value`` stand for in two's complement."""
+    value &= (1 << width) - 1
+    return value - (1 << width) if value >> (width - 1) else value
+
+
+def low(width):
+    """The most negative number of ``width`` bits."""
+    return -1 << (width - 1)
+
+
+def high(width):
+    """The largest signed number of ``width`` bits."""
+    return (1 << (width - 1)) - 1
+
+
+class Struct:
+    """A packed struct: fields (name, width), the first in the most significant bits.
+
+    A width below zero means signed. A third entry makes a packed array ``[count-1:0]``: a list of elements from 0 on.
+    """
+
+    def __init__(self, *fields):
+        self.fields = [(*f, None) if len(f) == 2 else f for f in fields]
+        self.width = sum(abs(width) * (count or 1) for _, width, count in self.fields)
+
+    def pack(self, values):
+        """Dictionary of fields to an integer."""
+        word = 0
+        for name, width, count in self.fields:
+            for value in reversed(values[name]) if count else [values[name]]:
+                word = word << abs(width) | (int(value) & ((1 << abs(width)) - 1))
+        return word
+
+    def unpack(self, word):
+        """Integer to dictionary of fields."""
+        values = {}
+        for name, width, count in reversed(self.fields):
+            elements = []
+            for _ in range(count or 1):
+                part = word & ((1 << abs(width)) - 1)
+                elements.append(signed(part, -width) if width < 0 else part)
+                word >>= abs(width)
+            values[name] = elements if count else elements[0]
+        return values
+
+
+_COORD, _DEPTH = -formats.COORD_WIDTH, -formats.DEPTH_WIDTH
+_PLACE = (("surface", formats.SURFACE_WIDTH), ("x", formats.PIXEL_WIDTH), ("y", formats.PIXEL_WIDTH))
+_ENDS = (("start", _COORD, 3), ("stop", _COORD, 3), ("depth_start", _DEPTH), ("depth_stop", _DEPTH))
+_SEARCH = (("paper", 1), ("roots", formats.ROOTS_WIDTH), ("box", formats.BOX_WIDTH, 3))
+RAY = Struct(*_PLACE, *_SEARCH)
+ENDS = Struct(*_ENDS)
+HIT = Struct(
+    *_PLACE, ("hit", 1), ("last", 1), ("t", 32), ("depth", _DEPTH), ("point", _COORD, 3), ("steps", formats.STEPS_WIDTH)
+)
+
+
+def control(digits):
+    """The struct RDX_CONTROL_T(N) of ``rtl/rdx_types.svh``."""
+    flags = ("level", 5), ("steps", formats.STEPS_WIDTH), ("follow", 1), ("pending", 1)
+    return Struct(("status", 3), *_SEARCH, *flags, ("t", digits), ("t_min", digits), ("t_next", digits))
+
+
+def segment(width, degree):
+    """The struct RDX_SEGMENT_T(W, D) of ``rtl/rdx_types.svh``."""
+    return Struct(*_ENDS, ("b", -width, degree + 1))
+
+
+# ---------------------------------------------------------------- inside of the simulator
+
+
+def rng(salt=""):
+    """Random numbers of this run's seed."""
+    return random.Random(f"{cocotb.RANDOM_SEED}{salt}")
+
+
+def parameter(dut, name):
+    """A parameter of the design, as an integer."""
+    return int(getattr(dut, name).value)
+
+
+async def start(dut):
+    """Start the clock; where there is a reset, hold it for four clocks. Ends at a falling edge."""
+    Clock(dut.clk_i, 10, unit="ns").start(start_high=False)
+    if hasattr(dut, "rst_ni"):
+        dut.rst_ni.value = 0
+        for _ in range(4):
+            await FallingEdge(dut.clk_i)
+        dut.rst_ni.value = 1
+    await FallingEdge(dut.clk_i)
+
+
+class Port:
+    """A port by its name: an integer, or nested lists of integers for an unpacked array, or fields of a struct."""
+
+    def __init__(self, dut, name, struct=None):
+        self.name, self.struct = name, struct
+        self.handles = list(self._flat(getattr(dut, name)))
+        self.width = len(self.handles[0])
+        assert struct is None or struct.width == self.width, f"{name}: {self.width} bits, struct: {struct.width}"
+
+    def _flat(self, handle):
+        if type(handle).__name__ == "ArrayObject":
+            for child in handle:
+                yield from self._flat(child)
+        else:
+            yield handle
+
+    def words(self, value):
+        """``value`` as unsigned integers, one for each element; None where an element does not matter."""
+        if self.struct:
+            value = self.struct.pack(value)
+        values = list(_flat_list(value)) if isinstance(value, list | tuple) else [value]
+        assert len(values) == len(self.handles), f"{self.name}: {len(values)} values for {len(self.handles)} elements"
+        return [None if v is None else int(v) & ((1 << self.width) - 1) for v in values]
+
+    def write(self, value):
+        """Set the port."""
+        for handle, word in zip(self.handles, self.words(value), strict=True):
+            handle.value = word
+
+    def read(self):
+        """The port's elements as unsigned integers."""
+        return [int(handle.value) for handle in self.handles]
+
+    def differences(self, expected, got):
+        """Lines that tell where two results of :meth:`words` differ; empty if they agree."""
+        lines = []
+        for i, (e, g) in enumerate(zip(expected, got, strict=True)):
+            if e is None or e == g:
+                continue
+            if self.struct:
+                e_fields, g_fields = self.struct.unpack(e), self.struct.unpack(g)
+                lines += [f"{self.name}.{f}: {_both(e_fields[f], g_fields[f])}" for f in e_fields
+                          if e_fields[f] != g_fields[f]]  # fmt: skip
+            else:
+                place = f"[{i}]" if len(self.handles) > 1 else ""
+                lines.append(f"{self.name}{place}: {_both(signed(e, self.width), signed(g, self.width), self.width)}")
+        return lines
+
+
+def _flat_list(value):
+    for v in value:
+        if isinstance(v, list | tuple):
+            yield from _flat_list(v)
+        else:
+            yield v
+
+
+def _hex(value, width):
+    if isinstance(value, list):
+        return "[" + ", ".join(_hex(v, width) for v in value) + "]"
+    return f"{value if width is None else value & ((1 << width) - 1):#x} = {value}"
+
+
+def _both(expected, got, width=None):
+    return f"expected {_hex(expected, width)}, got {_hex(got, width)}"
+
+
+def mismatch(number, inputs, lines):
+    """An AssertionError that says how to see it again."""
+    replay = os.environ.get("RAYDIX_REPLAY", f"SEED={cocotb.RANDOM_SEED}")
+    given = "\n  ".join(f"{name} = {value}  ({_hex(value, None)})" if not isinstance(value, dict) else
+                        f"{name} = {value}" for name, value in inputs.items())  # fmt: skip
+    return AssertionError(f"item {number}, {replay}\n  {given}\n  " + "\n  ".join(lines))
+
+
+async def pipeline(dut, items, expect, latency, structs=None):
+    """Give one item a clock, compare each output ``latency`` clocks later. Without clk_i: at once, ``latency`` 0.
+
+    items    dictionaries of inputs: name of the port -> value
+    expect   function of an item to the dictionary of outputs; None in place of an element that does not matter
+    structs  name of the port -> Struct, for ports that are given as fields
+    Returns the number of items, at least 1.
+    """
+    structs = structs or {}
+    clocked = hasattr(dut, "clk_i")
+    ports = {}
+    waiting = []
+    count = 0
+    for item in itertools.chain(items, [None] * latency):
+        if item is not None:
+            for name, value in item.items():
+                if name not in ports:
+                    ports[name] = Port(dut, name, structs.get(name))
+                ports[name].write(value)
+            waiting.append(item)
+        await (ReadOnly() if clocked else Timer(1, unit="ns"))
+        if len(waiting) > latency or item is None:
+            checked = waiting.pop(0)
+            lines = []
+            for name, value in expect(checked).items():
+                if name not in ports:
+                    ports[name] = Port(dut, name, structs.get(name))
+                lines += ports[name].differences(ports[name].words(value), ports[name].read())
+            if lines:
+                raise mismatch(count, checked, lines)
+            count += 1
+        if clocked:
+            await FallingEdge(dut.clk_i)
+    assert count and not waiting, f"{count} items checked, {len(waiting)} left"
+    return count

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command line: what it writes, what it refuses, and its exit status."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO as oiio
+import pytest
+
+from raydix.cli import main
+from raydix.image import CHANNELS
+
+ROOT = Path(__file__).resolve().parents[1]
+RAYDIX = Path(sys.executable).parent / "raydix"
+TORUS = (ROOT / "scenes" / "torus.toml").read_text()
+SMALL = ["--size", "48x36", "--threads", "1"]
+
+
+@pytest.fixture(scope="module")
+def rendered(tmp_path_factory):
+    """A small torus by the golden model, through the installed command."""
+    out = tmp_path_factory.mktemp("golden")
+    run = subprocess.run(
+        [RAYDIX, "render", ROOT / "scenes" / "torus.toml", *SMALL, "--out", out], capture_output=True, text=True
+    )
+    assert run.returncode == 0, run.stderr
+    assert [Path(line).name for line in run.stdout.split()] == ["torus.png", "torus.exr", "torus.npz"]
+    return out
+
+
+def test_npz_is_as_documented(rendered):
+    """Names, types and shapes of the arrays, and their values at a miss."""
+    data = np.load(rendered / "torus.npz")
+    kinds = {name: (data[name].dtype.name, data[name].shape) for name in data.files}
+    assert kinds == {
+        "depth": ("float64", (36, 48)),
+        "t": ("int64", (36, 48)),
+        "surface": ("int16", (36, 48)),
+        "normal": ("float32", (36, 48, 3)),
+        "rgb": ("uint8", (36, 48, 3)),
+    }
+    miss = data["surface"] == -1
+    assert 0 < miss.sum() < miss.size
+    assert np.isinf(data["depth"][miss]).all() and (data["t"][miss] == -1).all() and (data["normal"][miss] == 0).all()
+    hit = ~miss
+    assert ((data["t"][hit] >= 0) & (data["t"][hit] < 1 << 24)).all()
+    assert np.allclose(np.linalg.norm(data["normal"][hit], axis=1), 1, atol=1e-6)
+    assert (data["depth"][hit] > 4).all() and (data["depth"][hit] < 7).all()
+
+
+def test_normals_face_the_viewer(rendered):
+    """No normal points away from its ray."""
+    data = np.load(rendered / "torus.npz")
+    eye = np.array([3.0, -4.0, 2.5])
+    forward = -eye / np.linalg.norm(eye)
+    right = np.cross(forward, [0, 0, 1])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    pixel = 2 * np.tan(np.radians(15)) / 36
+    y, x = np.nonzero(data["surface"] >= 0)
+    ray = forward + ((x + 0.5 - 24) * pixel)[:, None] * right + ((18 - y - 0.5) * pixel)[:, None] * up
+    assert ((data["normal"][y, x] * ray).sum(axis=1) <= 1e-6).all()
+
+
+def test_exr_and_png_agree_with_npz(rendered):
+    """EXR holds linear colour, depth, normal and surface as named channels; PNG holds rgb."""
+    data = np.load(rendered / "torus.npz")
+    exr = oiio.ImageInput.open(str(rendered / "torus.exr"))
+    names, pixels = exr.spec().channelnames, exr.read_image("float")
+    assert sorted(names) == sorted(CHANNELS)
+    plane = {name: pixels[..., i] for i, name in enumerate(names)}
+    assert (plane["Z"] == data["depth"].astype(np.float32)).all()
+    assert (plane["surface"] == data["surface"]).all()
+    for i, axis in enumerate("XYZ"):
+        assert (plane[f"normal.{axis}"] == data["normal"][..., i]).all()
+    linear = np.stack([plane[c] for c in "RGB"], axis=2).astype(float)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
+    assert (np.rint(encoded * 255) == data["rgb"]).all()
+    png = oiio.ImageInput.open(str(rendered / "torus.png"))
+    assert (png.read_image("uint8") == data["rgb"]).all()
+
+
+def test_shade_is_lambert_plus_ambient(rendered):
+    """Linear colour = (ambient + (1 - ambient) max(0, n·l)) * colour; black where the ray misses."""
+    data = np.load(rendered / "torus.npz")
+    exr = oiio.ImageInput.open(str(rendered / "torus.exr"))
+    pixels = dict(zip(exr.spec().channelnames, np.moveaxis(exr.read_image("float"), 2, 0), strict=True))
+    light = np.array([-0.36, -0.48, 0.80])
+    light /= np.linalg.norm(light)
+    hit = data["surface"] >= 0
+    level = np.where(hit, 0.1 + 0.9 * np.maximum(0, data["normal"] @ light), 0)
+    for channel, colour in zip("RGB", (0.9, 0.5, 0.2), strict=True):
+        assert np.allclose(pixels[channel], level * colour, atol=1e-6)
+
+
+def test_compare(rendered, tmp_path, capsys):
+    """Equal outputs: 0. One value changed: 1, and the line says which. Nothing to compare: 2."""
+    assert main(["compare", str(rendered), str(rendered)]) == 0
+    data = dict(np.load(rendered / "torus.npz"))
+    data["t"][18, 10] ^= 1
+    np.savez(tmp_path / "torus.npz", **data)
+    assert main(["compare", str(rendered / "torus.npz"), str(tmp_path / "torus.npz")]) == 1
+    assert "torus.npz t: 1 of 1728 values differ, first at (18, 10)" in capsys.readouterr().out
+    assert main(["compare", str(rendered), str(tmp_path)]) == 1
+    for bad in ("missing", "empty", "text.npz", "text.txt"):
+        path = tmp_path / bad
+        if bad == "empty":
+            path.mkdir()
+        elif bad.startswith("text"):
+            path.write_text("no data")
+        assert main(["compare", str(rendered), str(path)]) == 2
+        assert bad in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--n1", "5"], "n1: found 5; allowed: 1 to 4"),
+        (["--steps", "11"], "steps: found 11; allowed: 1 to 10"),
+        (["--steps", "0"], "steps: found 0"),
+        (["--width", "60"], "width: found 60; allowed: 16 to 48"),
+        (["--units", "9"], "units: found 9; allowed: 1 to 8"),
+        (["--threads", "0"], "threads: found 0; allowed: 1 or more"),
+        (["--size", "5000x36"], "camera.width"),
+        (["--size", "0x36"], "camera.width"),
+    ],
+)
+def test_bad_option_is_refused(options, words, tmp_path, capsys):
+    """Exit status 2, one line that says what was found and what is allowed, and no output folder."""
+    out = tmp_path / "out"
+    assert main(["render", str(ROOT / "scenes" / "torus.toml"), "--out", str(out), *options]) == 2
+    assert words in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_malformed_options(tmp_path):
+    """What argparse refuses is exit status 2 as well."""
+    for options in (["--size", "big"], ["--rule", "best"], ["--n1", "three"], []):
+        with pytest.raises(SystemExit) as stop:
+            main(["render", str(ROOT / "scenes" / "torus.toml"), *options])
+        assert stop.value.code == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "key"),
+    [
+        ('type = "torus"', 'type = "spirals"', "surface[0].type"),
+        ("R = 1.0", "R = nan", "R"),
+        ("r = 0.4", "radius = 0.4", "radius"),
+        ("scale = 1.0", "scale = 0.0", "scale"),
+        ("look_at = [0.0, 0.0, 0.0]", "look_at = [3.0, -4.0, 2.5]", "look_at"),
+        ("up = [0.0, 0.0, 1.0]", "up = [3.0, -4.0, 2.5]", "up"),
+        ("width = 640", "width = 100000", "camera.width"),
+        ('type = "torus"\nR = 1.0\nr = 0.4', 'type = "plane"', "clip"),
+    ],
+)
+def test_bad_scene_is_refused(old, new, key, tmp_path):
+    """Exit status 2; file, key, found and allowed on stderr; no traceback; nothing written."""
+    assert old in TORUS
+    scene, out = tmp_path / "bad.toml", tmp_path / "out"
+    scene.write_text(TORUS.replace(old, new))
+    run = subprocess.run([RAYDIX, "render", scene, "--out", out], capture_output=True, text=True)
+    assert run.returncode == 2
+    assert str(scene) in run.stderr and key in run.stderr
+    assert "found" in run.stderr and "allowed" in run.stderr and "Traceback" not in run.stderr
+    assert not out.exists()
+
+
+def test_too_thin_clip_is_refused(tmp_path, capsys):
+    """A clip box that the coordinate words cannot resolve is refused by compile with file and key."""
+    scene = tmp_path / "thin.toml"
+    scene.write_text(TORUS + "clip = [[-1.5, -1.5, -1e-8], [1.5, 1.5, 1e-8]]\n")
+    assert main(["render", str(scene), *SMALL, "--out", str(tmp_path / "out")]) == 2
+    assert f"{scene}: surface[0] (torus).clip: found" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_unwritable_output(tmp_path, capsys):
+    """An output folder that is a file is one clear line."""
+    (tmp_path / "file").write_text("")
+    assert main(["render", str(ROOT / "scenes" / "torus.toml"), *SMALL, "--out", str(tmp_path / "file")]) == 2
+    assert str(tmp_path / "file") in capsys.readouterr().err
+
+
+def test_failed_write_leaves_nothing(rendered, tmp_path, monkeypatch):
+    """If writing fails half-way, neither the file nor a part of it is left, and an older file stays as it was."""
+    from raydix import image
+
+    path = tmp_path / "torus.npz"
+    path.write_text("older")
+
+    def fail(work, **_):
+        Path(work).write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(image.np, "savez_compressed", fail)
+    with pytest.raises(image.ImageError, match="No space left"):
+        image._replace(path, lambda work: image.np.savez_compressed(work))
+    assert os.listdir(tmp_path) == ["torus.npz"]
+    assert path.read_text() == "older"
+
+
+@pytest.mark.parametrize("missing", ["g++", "perl"])
+def test_missing_tool_is_named(missing, tmp_path):
+    """Set-up says in one line which tool is missing and how to get it."""
+    for tool in {"python3", "g++", "perl", "make", "git", "sh"} - {missing}:
+        (tmp_path / tool).symlink_to(sys.executable if tool == "python3" else shutil.which(tool))
+    run = subprocess.run(
+        ["/bin/sh", ROOT / "scripts" / "preflight.sh", "python3"],
+        env={"PATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 1
+    assert len(run.stderr.splitlines()) == 1
+    assert run.stderr.startswith(f"raydix: {missing} is missing") and "apt-get install" in run.stderr

