@@ -18,12 +18,14 @@ from rich.console import Console
 from rich.table import Table
 
 from raydix.accuracy import DepthErrors, depth_errors
+from raydix.blocks import write_table
 from raydix.config import RULES, Config
 from raydix.oracle import NotPolynomial, ideal_frame
 from raydix.render import render_golden
 from raydix.scene import load_scene
 
-SCENES = Path(__file__).resolve().parent.parent / "scenes"
+ROOT = Path(__file__).resolve().parents[1]
+SCENES = ROOT / "scenes"
 COLUMNS = (
     "scene",
     "size",
@@ -65,6 +67,10 @@ def main(arguments=None):
     if options.json:
         options.json.write_text(json.dumps([as_json(row, options) for row in rows], indent=2) + "\n")
 
+    if options.write:
+        header = [column.replace("\n", " ") for column in COLUMNS]
+        write_table(ROOT / "docs" / "accuracy.md", "scenes", header, list(cells(rows)))
+
     measured = [row for row in rows if row.errors]
     if not measured:
         print("accuracy: no scene that can be measured", file=sys.stderr)
@@ -86,6 +92,7 @@ def parse(arguments):
     parser.add_argument("--width", type=int, default=reference.width, help="bits W of a control point")
     parser.add_argument("--size", type=size, default=(None, None), metavar="WxH", help="image size")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers to FILE, too")
+    parser.add_argument("--write", action="store_true", help="renew the table in docs/accuracy.md")
     limits = parser.add_argument_group("limits per scene (exit status 1 when exceeded)")
     limits.add_argument("--max-silhouette", type=int, default=0, metavar="PIXELS")
     limits.add_argument("--max-ulp", type=float, metavar="ULP", help="largest error in ulp")
@@ -115,20 +122,26 @@ def measure(path, options):
     return Measured(path.stem, scene.camera.width, scene.camera.height, errors, note)
 
 
+def cells(rows):
+    """The text of each row's cells."""
+    for row in rows:
+        e, image = row.errors, f"{row.width}×{row.height}"
+        if e is None:
+            yield [row.scene, image, "not measured: no polynomial on the ray"]
+            continue
+        counts = (f"{n:,}" for n in (e.hit, e.silhouette, e.other))
+        lengths = (f"{x:.2e}" for x in (e.rms, e.p999, e.max, e.ulp))
+        ulps = (f"{x:.3f}" for x in (e.ulp_rms, e.ulp_p999, e.ulp_max))
+        yield [row.scene, image, *counts, *lengths, *ulps]
+
+
 def table(rows):
     """All rows as a table for the terminal."""
     result = Table(title="golden model against the ideal scene (depth error in scene units and in ulp of t)")
     for column in COLUMNS:
         result.add_column(column, justify="left" if column == "scene" else "right")
-    for row in rows:
-        e, image = row.errors, f"{row.width}×{row.height}"
-        if e is None:
-            result.add_row(row.scene, image, "not measured: no polynomial on the ray")
-            continue
-        counts = (f"{n:,}" for n in (e.hit, e.silhouette, e.other))
-        lengths = (f"{x:.2e}" for x in (e.rms, e.p999, e.max, e.ulp))
-        ulps = (f"{x:.3f}" for x in (e.ulp_rms, e.ulp_p999, e.ulp_max))
-        result.add_row(row.scene, image, *counts, *lengths, *ulps)
+    for row in cells(rows):
+        result.add_row(*row)
     return result
 
 

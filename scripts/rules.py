@@ -11,11 +11,13 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from raydix.blocks import write_table
 from raydix.chords import chord_quads, paper_float, random_chords, rates, trace_chords
 from raydix.config import Config
 from raydix.oracle import chord_roots, quadrics
 from raydix.surfaces import form
 
+ROOT = Path(__file__).resolve().parents[1]
 TORUS = SimpleNamespace(type="torus", R=0.7, r=0.25)
 
 
@@ -37,6 +39,12 @@ def measure(count, seed, radius, width):
             yield n1, steps, f"{rule}, quartic, golden model", rates(t[:, 0], exact, 24, taken)
 
 
+def cells(n1, steps, label, r):
+    """The text of a row's cells."""
+    counts = f"{r.chords:,}", f"{r.missed:.4%}", f"{r.wrong:.4%}", str(r.false)
+    return [f"{n1}, {steps}", label, *counts, steps_text(r.steps_per_hit), steps_text(r.steps_per_miss)]
+
+
 def steps_text(mean):
     """A mean of steps; nothing where it was not counted."""
     return "" if np.isnan(mean) else f"{mean:.2f}"
@@ -50,6 +58,7 @@ def main():
     parser.add_argument("--radius", type=float, default=1.0, help="of the sphere that the ends lie on (default: 1)")
     parser.add_argument("--width", type=int, default=36, help="W, bits of a control point (default: 36)")
     parser.add_argument("--json", type=Path, help="write the figures there, too")
+    parser.add_argument("--write", action="store_true", help="renew the table in docs/accuracy.md")
     args = parser.parse_args()
     table = Table(title=f"torus R = 0.7, r = 0.25; {args.chords} chords, seed {args.seed}; n = 24, W = {args.width}")
     for name in (
@@ -64,18 +73,12 @@ def main():
     ):
         table.add_column(name, justify="left" if "rule" in name else "right")
     rows = list(measure(args.chords, args.seed, args.radius, args.width))
-    for n1, steps, label, r in rows:
-        table.add_row(
-            f"{n1}, {steps}",
-            label,
-            f"{r.chords:,}",
-            f"{r.missed:.4%}",
-            f"{r.wrong:.4%}",
-            str(r.false),
-            steps_text(r.steps_per_hit),
-            steps_text(r.steps_per_miss),
-        )
+    texts = [cells(*row) for row in rows]
+    for text in texts:
+        table.add_row(*text)
     Console(width=120).print(table)
+    if args.write:
+        write_table(ROOT / "docs" / "accuracy.md", "rules", [str(c.header) for c in table.columns], texts)
     if args.json:
         args.json.write_text(json.dumps([[n1, k, label, r._asdict()] for n1, k, label, r in rows], indent=1))
     return 0

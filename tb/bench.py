@@ -110,7 +110,7 @@ def run(module, toplevel, parameters=None, checks=None):
                 get_runner("verilator").test(
                     test_module=module, hdl_toplevel=toplevel, hdl_toplevel_lang="verilog", build_dir=target,
                     test_dir=folder, results_xml=str(results), seed=seed, test_args=arguments, testcase=checks,
-                    extra_env={"RAYDIX_INTERPRET": "1", "RAYDIX_REPLAY": replay},
+                    extra_env={"RAYDIX_INTERPRET": "1", "RAYDIX_REPLAY": replay, "COCOTB_REWRITE_ASSERTION_FILES": ""},
                 )  # fmt: skip
             except RuntimeError as error:
                 ended = f" ({error}: an assertion of the design, or the simulator itself)"

@@ -12,6 +12,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from .blocks import markdown_table, replace_block
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -83,28 +85,17 @@ def systemverilog() -> str:
 
 def markdown() -> str:
     """The constants as a Markdown table."""
-    rows = [f"| `{c.name}` | {c.value} | {f'`{c.token}`' if c.token else ''} | {c.meaning} |" for c in TABLE]
-    return "\n".join(["| constant | value | format | meaning |", "|---|---|---|---|", *rows]) + "\n"
-
-
-def _targets():
-    yield ROOT / "rtl" / "rdx_pkg.sv", f"  // {BEGIN}\n", f"  // {END}\n", systemverilog()
-    yield ROOT / "docs" / "number-formats.md", f"<!-- {BEGIN} -->\n", f"<!-- {END} -->\n", markdown()
+    rows = [[f"`{c.name}`", str(c.value), f"`{c.token}`" if c.token else "", c.meaning] for c in TABLE]
+    return markdown_table(["constant", "value", "format", "meaning"], rows)
 
 
 def drift(write: bool = False) -> list[Path]:
     """Files whose generated block differs from the table; with ``write`` they are brought up to date."""
-    stale = []
-    for path, begin, end, body in _targets():
-        text = path.read_text()
-        head, rest = text.split(begin)
-        tail = rest.split(end)[1]
-        wanted = head + begin + body + end + tail
-        if wanted != text:
-            stale.append(path)
-            if write:
-                path.write_text(wanted)
-    return stale
+    targets = (
+        (ROOT / "rtl" / "rdx_pkg.sv", f"  // {BEGIN}\n", f"  // {END}\n", systemverilog()),
+        (ROOT / "docs" / "number-formats.md", f"<!-- {BEGIN} -->\n", f"<!-- {END} -->\n", markdown()),
+    )
+    return [path for path, begin, end, body in targets if replace_block(path, begin, end, body, write)]
 
 
 def main() -> int:

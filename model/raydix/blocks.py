@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Generated blocks in files that are otherwise written by hand."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+
+def replace_block(path: Path, begin: str, end: str, body: str, write: bool) -> bool:
+    """Bring the text between the lines ``begin`` and ``end`` of ``path`` up to date, if ``write``.
+
+    Returns whether it differed from ``body``. Raises ValueError where the markers are not there once each.
+    """
+    text = path.read_text()
+    if text.count(begin) != 1 or text.count(end) != 1:
+        raise ValueError(f"{path}: the lines {begin!r} and {end!r} are not there once each")
+    head, rest = text.split(begin)
+    wanted = head + begin + body + end + rest.split(end)[1]
+    if write and wanted != text:
+        path.write_text(wanted)
+    return wanted != text
+
+
+def markdown_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table; columns whose cells start with a digit are right-aligned."""
+    right = [bool(rows) and all(row[i][:1].isdigit() or not row[i] for row in rows) for i in range(len(header))]
+    lines = [header, ["---:" if r else "---" for r in right], *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def write_table(path: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Replace the block ``name`` of a Markdown file by a table."""
+    begin, end = f"<!-- BEGIN generated: {name} -->\n", f"<!-- END generated: {name} -->\n"
+    replace_block(path, begin, end, "\n" + markdown_table(header, rows) + "\n", True)
