@@ -13,6 +13,8 @@ import random
 import secrets
 import shutil
 import tempfile
+import time
+from importlib.metadata import version
 from pathlib import Path
 from unittest.mock import patch
 from xml.etree import ElementTree
@@ -28,7 +30,7 @@ BUILD = ROOT / "build" / "tb"
 WAVES = ROOT / "build" / "waves"
 
 # Verilator's runtime is compiled once and copied. The rest is one small file: compiling it at -O0 costs less than
-# the faster simulation would save. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled headers.
+# a faster simulation would save. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled headers.
 MAKE_VARIABLES = "CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_FAST=-O0 OPT_SLOW=-O0"
 
 
@@ -48,15 +50,19 @@ def build(toplevel, parameters, waves=None):
     from cocotb_tools.runner import get_runner
 
     files = [*sources(), *sorted(RTL.glob("*.svh"))]
-    facts = b"".join(p.read_bytes() for p in files) + repr((sorted(parameters.items()), waves, MAKE_VARIABLES)).encode()
+    tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES]
+    facts = b"".join(p.read_bytes() for p in files) + repr([sorted(parameters.items()), tools]).encode()
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
     if (target / toplevel).exists():
         return target
-    runtime = BUILD / f"runtime-{waves}"
+    runtime = BUILD / f"runtime-{hashlib.sha256(repr(tools).encode()).hexdigest()[:20]}"
     BUILD.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
         work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
-        shutil.copytree(runtime, work) if runtime.exists() else work.mkdir()
+        work.mkdir()
+        for file in runtime.glob("*.o"):
+            shutil.copy(file, work)
+            os.utime(work / file.name, (time.time() + 3600,) * 2)  # else make finds the generated makefile younger
         try:
             get_runner("verilator").build(
                 hdl_toplevel=toplevel, sources=sources(), includes=[RTL], parameters=parameters, build_dir=work,
@@ -140,6 +146,34 @@ def low(width):
 def high(width):
     """The largest signed number of ``width`` bits."""
     return (1 << (width - 1)) - 1
+
+
+def corners(width, size):
+    """Vectors: all zeros, all least, all largest, alternating signs, signs that change once, a single nonzero value."""
+    least, largest = low(width), high(width)
+    for value in (0, -1, 1, least, largest):
+        yield [value] * size
+    for pair in ((least, largest), (largest, least), (-1, 0), (0, -1), (0, 1), (1, 0), (-1, 1), (1, -1), (least, -1)):
+        yield [pair[i % 2] for i in range(size)]
+        for cut in range(1, size):
+            yield [pair[0]] * cut + [pair[1]] * (size - cut)
+    for i in range(size):
+        for value in (least, -1, 1, largest):
+            yield [value if k == i else 0 for k in range(size)]
+
+
+def vectors(random, width, size, count):
+    """Corners, then ``count`` random vectors, each of values of all magnitudes or of one magnitude."""
+    yield from corners(width, size)
+    for i in range(count):
+        most = width if i % 2 else random.randint(1, width)
+        bits = [random.randint(1, width) if i % 3 == 0 else most for _ in range(size)]
+        yield [signed(random.getrandbits(b), b) for b in bits]
+
+
+def every(width, size):
+    """All vectors of ``size`` signed values of ``width`` bits."""
+    return itertools.product(range(low(width), high(width) + 1), repeat=size)
 
 
 class Struct:

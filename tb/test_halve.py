@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Halving of a cell: RTL equals the model in every bit; the model is within its bound of the exact values."""
 
-import itertools
 from fractions import Fraction
 
 import cocotb
@@ -18,28 +17,9 @@ def model(b):
     return left, right
 
 
-def corners(width, size):
-    """All zeros, all least, all largest, alternating signs, a single value that is not zero, steps over zero."""
-    least, largest = bench.low(width), bench.high(width)
-    for value in (0, -1, 1, least, largest):
-        yield [value] * size
-    for pair in ((least, largest), (largest, least), (-1, 0), (0, -1), (0, 1), (-1, 1), (least, -1)):
-        yield [pair[i % 2] for i in range(size)]
-        for cut in range(1, size):
-            yield [pair[0]] * cut + [pair[1]] * (size - cut)
-    for i in range(size):
-        for value in (least, -1, 1, largest):
-            yield [value if k == i else 0 for k in range(size)]
-
-
 def stimuli(dut, count):
-    """Corners, then random cells: of the whole width, and of few bits."""
-    width, size = bench.parameter(dut, "W"), bench.parameter(dut, "D") + 1
-    yield from corners(width, size)
-    random = bench.rng()
-    for i in range(count):
-        bits = width if i % 2 else random.randint(1, width)
-        yield [bench.signed(random.getrandbits(bits), bits) for _ in range(size)]
+    """Corners, then random cells."""
+    return bench.vectors(bench.rng(), bench.parameter(dut, "W"), bench.parameter(dut, "D") + 1, count)
 
 
 async def equal(dut, cells):
@@ -62,8 +42,7 @@ async def equals_model(dut):
 @cocotb.test
 async def equals_model_exhaustively(dut):
     """The same for every possible cell."""
-    width, size = bench.parameter(dut, "W"), bench.parameter(dut, "D") + 1
-    await equal(dut, itertools.product(range(bench.low(width), bench.high(width) + 1), repeat=size))
+    await equal(dut, bench.every(bench.parameter(dut, "W"), bench.parameter(dut, "D") + 1))
 
 
 @cocotb.test
