@@ -179,6 +179,22 @@ def test_too_thin_clip_is_refused(tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("name", ["wave.vcd", "wave.png", "wave.fst"])
+def test_wave(name, tmp_path, capsys):
+    """The RTL back end writes a VCD; FST where lz4.h is there; another ending is refused."""
+    from raydix.rtl import has_fst
+
+    wave, out = tmp_path / name, tmp_path / "out"
+    command = ["render", str(ROOT / "scenes" / "sphere.toml"), "--backend", "rtl", "--size", "8x6", "--out", str(out)]
+    status = main([*command, "--units", "1", "--steps", "2", "--wave", str(wave)])
+    if name.endswith("png") or (name.endswith("fst") and not has_fst()):
+        assert status == 2 and not wave.exists() and not out.exists()
+        assert "waveform format: found" in capsys.readouterr().err
+    else:
+        assert status == 0 and (out / "sphere.png").is_file()
+        assert name.endswith("fst") or "u_ring" in wave.read_text()
+
+
 def test_unwritable_output(tmp_path, capsys):
     """An output folder that is a file is one clear line."""
     (tmp_path / "file").write_text("")

@@ -54,6 +54,7 @@ def _parser() -> argparse.ArgumentParser:
     render = commands.add_parser("render", help="render a scene: PNG, EXR and npz")
     _add_scene_options(render)
     render.add_argument("--backend", choices=("golden", "rtl"), default="golden", help="who computes (default: golden)")
+    render.add_argument("--wave", type=Path, metavar="FILE", help="with --backend rtl: write a waveform, .vcd or .fst")
     verify = commands.add_parser("verify", help="render by golden model and RTL and compare them bit for bit")
     _add_scene_options(verify)
     compare = commands.add_parser("compare", help="compare two outputs; exit status 1 if they differ")
@@ -92,11 +93,11 @@ def _load(args: argparse.Namespace) -> Scene:
     return load_scene(args.scene, *(args.size or (None, None)))
 
 
-def _build(config: Config) -> None:
+def _build(config: Config, trace: str | None = None) -> None:
     """Build the simulator, with a word about it: it takes a while."""
     console = Console(stderr=True)
     with console.status(f"building the RTL with Verilator (U = {config.units}, about half a minute) …"):
-        build(config)
+        build(config, trace)
 
 
 def _render(args: argparse.Namespace) -> int:
@@ -104,13 +105,15 @@ def _render(args: argparse.Namespace) -> int:
 
     scene = _load(args)
     config = _config(args, scene)
+    if args.wave and args.backend != "rtl":
+        raise ConfigError(f"wave: found '{args.wave}' with the golden model; allowed: with --backend rtl")
     if args.backend == "rtl":
-        _build(config)
+        _build(config, args.wave.suffix[1:] if args.wave else None)
     with _progress() as bar:
         if args.backend == "golden":
             frame = render_golden(scene, config, args.threads, bar("golden model, rays"))
         else:
-            frame = render_rtl(scene, config, bar("RTL, rays"))
+            frame = render_rtl(scene, config, bar("RTL, rays"), args.wave)
     for path in write_frame(frame, args.out, scene.name):
         print(path)
     return 0

@@ -22,10 +22,10 @@ def render_golden(scene: Scene, config: Config, threads: int = 1, progress=None)
     return compose(scene, trace_golden(compiled, config, threads, progress), config)
 
 
-def render_rtl(scene: Scene, config: Config, progress=None) -> Frame:
+def render_rtl(scene: Scene, config: Config, progress=None, wave: Path | None = None) -> Frame:
     """Render ``scene`` by the RTL under Verilator. Raises SceneError, and RtlError where a tool fails."""
     compiled = compile_scene(scene, config)
-    return compose(scene, trace_rtl(compiled, config, progress=progress), config)
+    return compose(scene, trace_rtl(compiled, config, wave=wave, progress=progress), config)
 
 
 @dataclass

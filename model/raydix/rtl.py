@@ -81,12 +81,16 @@ def has_fst() -> bool:
 
 
 def _trace_arguments(trace: str | None) -> list[str]:
+    """What Verilator needs for a simulator that writes waveforms, and frame.cpp to know of it."""
     if trace is None:
         return []
-    names = {"fst": ("verilated_fst_c.h", "VerilatedFstC"), "vcd": ("verilated_vcd_c.h", "VerilatedVcdC")}
-    header, name = names[trace]
-    define = f'-DRDX_TRACE="<{header}>" -DRDX_TRACE_CLASS={name}'.replace('"', '\\"')
-    return [f"--trace-{trace}", "--trace-structs", "-CFLAGS", define.replace('\\"', "")]
+    if trace not in ("vcd", "fst"):
+        raise RtlError(f"waveform format: found '{trace}'; allowed: vcd, fst")
+    if trace == "fst" and not has_fst():
+        raise RtlError(
+            "waveform format: found 'fst'; allowed: vcd (fst needs lz4.h, Debian: apt-get install liblz4-dev)"
+        )
+    return [f"--trace-{trace}", "--trace-structs", "-CFLAGS", f"-DRDX_TRACE_{trace.upper()}"]
 
 
 def build(config: Config, trace: str | None = None) -> Path:

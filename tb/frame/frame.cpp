@@ -20,8 +20,14 @@
 
 #include "Vrdx_core.h"
 #include "verilated.h"
-#ifdef RDX_TRACE
-#include RDX_TRACE
+#if defined(RDX_TRACE_FST)
+#include "verilated_fst_c.h"
+using Trace = VerilatedFstC;
+#define RDX_TRACE
+#elif defined(RDX_TRACE_VCD)
+#include "verilated_vcd_c.h"
+using Trace = VerilatedVcdC;
+#define RDX_TRACE
 #endif
 
 // Layout known to model/raydix/rtl.py
@@ -65,7 +71,7 @@ int main(int argc, char** argv) {
     VerilatedContext context;
     Vrdx_core top{&context};
 #ifdef RDX_TRACE
-    RDX_TRACE_CLASS trace;
+    Trace trace;
     if (!trace_name.empty()) {
         context.traceEverOn(true);
         top.trace(&trace, 99);

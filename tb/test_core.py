@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The intersection core: descriptors of small scenes in, the golden model's hits out, whatever the ports do."""
+
+import cocotb
+from cocotb.triggers import FallingEdge, with_timeout
+
+import bench
+import streams
+import streams_extra
+from raydix.compile import compile_scene, descriptor_array
+from raydix.config import RULES, Config
+from raydix.golden import trace_golden
+from raydix.rtl import ROOT, parameters
+from raydix.scene import load_scene
+
+CONFIG = Config(n1=2, steps=6, width=36, degree=4, units=2, rules="both")
+NAMES = ("surface", "x", "y", "hit", "last", "t", "depth", "point", "steps")
+SIGNED = ("depth", "point")
+
+
+def compiled_frame(scene, rule="certified"):
+    """Words of a scene of ``scenes/`` in 16 x 12 pixels."""
+    return compile_scene(load_scene(ROOT / "scenes" / f"{scene}.toml", 16, 12), CONFIG.with_(rule=rule))
+
+
+def record(words):
+    """One record as a dictionary; ``point`` is a list of three."""
+    words = [bench.signed(w, 32) if i in (6, 7, 8, 9) else w for i, w in enumerate(words)]
+    return dict(zip(NAMES, [*words[:7], words[7:10], words[10]], strict=True))
+
+
+def compare(frame, received):
+    """The records of each ray are the golden model's hits in order, then its end; nothing else comes."""
+    by_ray = {}
+    for r in received:
+        by_ray.setdefault((r["surface"], r["x"], r["y"]), []).append(r)
+    for hits in frame.surfaces:
+        x0, y0, *_ = hits.surface.rect
+        rows, columns, roots = hits.t.shape
+        for row in range(rows):
+            for column in range(columns):
+                key = hits.surface.index, x0 + column, y0 + row
+                got = by_ray.pop(key, [])
+                at = row, column
+                wanted = [
+                    (int(hits.t[*at, i]), int(hits.depth[*at, i]), hits.point[*at, i].tolist())
+                    for i in range(roots)
+                    if hits.t[*at, i] >= 0
+                ]
+                found = [(r["t"], r["depth"], r["point"]) for r in got if r["hit"]]
+                lines = []
+                if found != wanted:
+                    lines.append(f"hits (t, depth, point): expected {wanted}, got {found}")
+                if [r["last"] for r in got] != [0] * (len(got) - 1) + [1]:
+                    lines.append(f"last record: {got}")
+                elif got[-1]["steps"] != hits.steps[at]:
+                    lines.append(f"steps: expected {hits.steps[at]}, got {got[-1]['steps']}")
+                if lines:
+                    raise bench.mismatch(key, {"words": hits.surface.words}, lines)
+    assert not by_ray, f"records of rays that there are not: {by_ray}"
+
+
+async def render(dut, random, frame, idle, stall):
+    """Feed the frame's descriptors, take records until every ray has left its last one."""
+    rays = sum(hits.steps.size for hits in frame.surfaces)
+    words = descriptor_array(frame.compiled).tolist()
+    sink = streams_extra.sink(dut, random, stall, "hit_", {f"hit_{name}_o": None for name in NAMES})
+    task = cocotb.start_soon(sink.take())
+    cocotb.start_soon(streams.source(dut, words, random, idle, "desc_", "desc_data_i"))
+    last = NAMES.index("last")
+
+    async def finished():
+        quiet = 0
+        while quiet < 200:  # then nothing more may come
+            before = len(sink.received)
+            await FallingEdge(dut.clk_i)
+            done = sum(words[last] for words in sink.received) >= rays
+            quiet = quiet + 1 if done and len(sink.received) == before else 0
+
+    await with_timeout(cocotb.start_soon(finished()), 10 * (5000 + 100 * rays), "ns")
+    task.cancel()
+    compare(frame, [record(words) for words in sink.received])
+
+
+@cocotb.test
+@cocotb.parametrize(scene=("torus", "gallery", "glass"), rule=RULES)
+async def equals_golden(dut, scene, rule):
+    """All records of a frame are the golden model's arrays, with stalls at both ports."""
+    random = bench.rng(f"{scene} {rule}")
+    dut.desc_valid_i.value = 0
+    dut.hit_ready_i.value = 0
+    await bench.start(dut)
+    frame = trace_golden(compiled_frame(scene, rule), CONFIG.with_(rule=rule))
+    assert frame.counts()["hits"] > 10
+    await render(dut, random, frame, 0.3, 0.5 if scene == "glass" else 0.2)
+
+
+@cocotb.test
+async def without_stalls(dut):
+    """The same with ports that are always ready, two frames behind each other."""
+    random = bench.rng()
+    dut.desc_valid_i.value = 0
+    dut.hit_ready_i.value = 0
+    await bench.start(dut)
+    for scene in ("torus", "glass"):
+        await render(dut, random, trace_golden(compiled_frame(scene), CONFIG), 0.0, 0.0)
+
+
+def test_core():
+    """Quartics and quadrics, boxes, one root and all, both rules."""
+    bench.run(__name__, "rdx_core", parameters(CONFIG))
