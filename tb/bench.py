@@ -38,8 +38,8 @@ MAKE_VARIABLES = "CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_FAST=-O0 
 
 
 def label(parameters):
-    """Name of a set of parameters: ``W3-D4``."""
-    return "-".join(f"{name}{value}" for name, value in parameters.items()) or "default"
+    """Name of a set of parameters: ``W=3-D=4``."""
+    return "-".join(f"{name}={value}" for name, value in parameters.items()) or "default"
 
 
 def build(toplevel, parameters, waves=None):
@@ -66,7 +66,7 @@ def build(toplevel, parameters, waves=None):
         try:
             get_runner("verilator").build(
                 hdl_toplevel=toplevel, sources=sources(), includes=[RTL], parameters=parameters, build_dir=work,
-                build_args=["--assert", "-Wno-fatal", *([f"--trace-{waves}", "--trace-structs"] if waves else [])],
+                build_args=["--assert", *([f"--trace-{waves}", "--trace-structs"] if waves else [])],
                 waves=bool(waves), log_file=log,
             )  # fmt: skip
         except RuntimeError as error:

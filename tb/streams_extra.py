@@ -41,5 +41,5 @@ def compare(bundle, expected, received):
     for number, (e, r) in enumerate(zip(expected, received, strict=False)):
         lines = bundle.differences(e, r)
         if lines:
-            raise bench.mismatch(number, e, lines)
+            raise bench.mismatch(number, {"expected": e}, lines)
     assert len(expected) == len(received), f"{len(expected)} items expected, {len(received)} received"

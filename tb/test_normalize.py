@@ -89,7 +89,7 @@ SETS = [
     dict(WIn=6, WOut=4, Count=2, Limit=3),
     dict(WIn=36, WOut=36, Count=5, Limit=7),
     dict(WIn=48, WOut=48, Count=3, Limit=15),
-    dict(WIn=62, WOut=36, Count=5, Limit=31),
+    dict(WIn=64, WOut=36, Count=5, Limit=63),
 ]
 
 

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The choice of the cell: RTL equals the model; the certified rule excludes no cell that holds a sign change."""
+
+from math import comb
+
+import cocotb
+import pytest
+
+import bench
+from raydix.cells import subdivide
+from raydix.select import certified, changes, mixed, paper
+
+CERTIFIED, PAPER, BOTH = 1, 2, 3
+
+
+def candidates(cells, excluded, last, by_paper, degree, n1):
+    """Mask of the candidates by the model's tests of a cell."""
+    count = 1 << n1
+    if by_paper:
+        return paper(cells, excluded, degree, count)
+    test = changes if last else mixed
+    return sum(1 << j for j in range(count) if test(cells, j * degree, degree)) & ~excluded
+
+
+def first_two(mask):
+    """Numbers of the lowest two bits, None where there is none."""
+    bits = [j for j in range(mask.bit_length()) if mask >> j & 1]
+    return (bits + [None, None])[:2]
+
+
+def stimuli(dut, count):
+    """All control points where they are few; else corners, random ones, and the cells of a parent."""
+    width, degree, n1 = (bench.parameter(dut, name) for name in ("W", "D", "N1"))
+    size = (1 << n1) * degree + 1
+    if width * size <= 15:
+        yield from map(list, bench.every(width, size))
+        return
+    random = bench.rng()
+    yield from list(bench.vectors(random, width, size, count))[-2 * count :]
+    for b in bench.vectors(random, width, degree + 1, count):
+        cells = b + [0] * (size - degree - 1)
+        subdivide(cells, degree, n1)
+        yield cells
+
+
+def flags(random, cells, n1):
+    """Inputs beside the control points: nothing excluded, everything, or any mask; both rules; last level or not."""
+    j = 1 << n1
+    excluded = random.choice((0, 0, (1 << j) - 1, (1 << random.randrange(j)) - 1, random.getrandbits(j)))
+    return dict(cells_i=cells, excluded_i=excluded, last_i=random.getrandbits(1), paper_i=random.getrandbits(1))
+
+
+async def equal(dut, items):
+    """RTL and model on ``items``."""
+    degree, n1, rules = (bench.parameter(dut, name) for name in ("D", "N1", "Rules"))
+
+    def expect(item):
+        by_paper = rules == PAPER or (rules == BOTH and item["paper_i"])
+        mask = candidates(item["cells_i"], item["excluded_i"], item["last_i"], by_paper, degree, n1)
+        pick, following = first_two(mask)
+        outputs = {"found_o": pick is not None, "more_o": following is not None}
+        return outputs | {"pick_o": [pick], "next_o": [following]}
+
+    await bench.start(dut)
+    latency = 1 if rules == CERTIFIED else 2 + (n1 + 2) // 2
+    await bench.pipeline(dut, items, expect, latency)
+
+
+@cocotb.test
+async def equals_model(dut):
+    """found, more, and the two numbers where they mean something."""
+    n1, random = bench.parameter(dut, "N1"), bench.rng("flags")
+    await equal(dut, (flags(random, cells, n1) for cells in stimuli(dut, 400)))
+
+
+@cocotb.test
+async def equals_model_exhaustively(dut):
+    """The same for all control points, masks and flags."""
+    items = (
+        dict(cells_i=cells, excluded_i=bits >> 2, last_i=bits & 1, paper_i=bits >> 1 & 1)
+        for cells in stimuli(dut, 0)
+        for bits in range(4 << (1 << bench.parameter(dut, "N1")))
+    )
+    await equal(dut, items)
+
+
+@cocotb.test
+async def walk_equals_masks(dut):
+    """The model's walk of the tree finds the first two candidates of the masks, and the first one's control points."""
+    width, degree, n1 = (bench.parameter(dut, name) for name in ("W", "D", "N1"))
+    random = bench.rng()
+    size = degree + 1
+    for number, b in enumerate(bench.vectors(random, width, size, 400)):
+        item = flags(random, b, n1)
+        cells = b + [0] * ((1 << n1) * degree + 1 - size)
+        subdivide(cells, degree, n1)
+        wanted = first_two(candidates(cells, item["excluded_i"], item["last_i"], False, degree, n1))
+        parent = list(b)
+        mask = certified(parent, [0] * ((n1 + 1) * size), item["excluded_i"], item["last_i"], degree, n1)
+        pick = wanted[0]
+        points = b if pick is None else cells[pick * degree : pick * degree + size]
+        if first_two(mask) != wanted or parent != points:
+            raise bench.mismatch(number, item, [f"expected {wanted} {points}, the walk has {bin(mask)} {parent}"])
+
+
+def signs_of(b, eighths):
+    """Signs of the polynomial with Bernstein coefficients b at k/8 for k in ``eighths``, exactly (times 8^D)."""
+    degree = len(b) - 1
+    return {sum(comb(degree, i) * k**i * (8 - k) ** (degree - i) * v for i, v in enumerate(b)) > 0 for k in eighths}
+
+
+@cocotb.test
+async def certified_misses_nothing(dut):
+    """A cell whose polynomial takes both signs, exactly evaluated, is a candidate; at the last level if its ends do."""
+    degree, n1 = bench.parameter(dut, "D"), bench.parameter(dut, "N1")
+    seen = 0
+    for number, cells in enumerate(stimuli(dut, 40)):
+        for last in (False, True):
+            mask = candidates(cells, 0, last, False, degree, n1)
+            for j in range(1 << n1):
+                b = cells[j * degree : j * degree + degree + 1]
+                signs = signs_of(b, (0, 8) if last else range(9))
+                seen += len(signs) == 2
+                if len(signs) == 2 and not mask >> j & 1:
+                    raise bench.mismatch(number, {"cell": b}, [f"cell {j} changes sign, candidates: {bin(mask)}"])
+    assert seen > 100, "the stimuli do not change sign"
+
+
+WIDE = [
+    dict(W=36, D=4, N1=3, Rules=BOTH),
+    dict(W=36, D=4, N1=3, Rules=CERTIFIED),
+    dict(W=36, D=4, N1=3, Rules=PAPER),
+    dict(W=48, D=2, N1=4, Rules=BOTH),
+    dict(W=16, D=3, N1=2, Rules=BOTH),
+    dict(W=3, D=2, N1=1, Rules=BOTH),
+]
+
+
+@pytest.mark.parametrize("parameters", WIDE, ids=bench.label)
+def test_choice(parameters):
+    """Corners, random control points and cells of a parent; all control points at W = 3; every set of rules."""
+    checks = ["equals_model", "certified_misses_nothing"]
+    bench.run(__name__, "rdx_select", parameters, checks + ["walk_equals_masks"] * (parameters["W"] > 3))
+
+
+@pytest.mark.parametrize("rules", [CERTIFIED, PAPER, BOTH])
+def test_every_small_choice(rules):
+    """Exhaustive in control points, excluded cells, level and rule."""
+    bench.run(__name__, "rdx_select", dict(W=3, D=1, N1=1, Rules=rules), ["equals_model_exhaustively"])

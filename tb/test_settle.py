@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The end of a step: RTL equals the model; the hit point is within half an ulp of the middle of the cell."""
+
+from fractions import Fraction
+
+import cocotb
+import pytest
+
+import bench
+from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, DEPTH_WIDTH, ROOTS_WIDTH, STEPS_MAX
+from raydix.item import AGAIN, BOX, DEPTH, DONE, HIT, IDLE, RUN, SIZE, B, C
+from raydix.normalize import norm_limit, normalize
+from raydix.select import changes
+from raydix.settle import settle
+
+LATENCY = 2
+
+
+def structs(dut):
+    """The structs of the ports."""
+    digits = bench.parameter(dut, "N1") * bench.parameter(dut, "K")
+    control, segment = bench.control(digits), bench.segment(bench.parameter(dut, "W"), bench.parameter(dut, "D"))
+    return dict(control_i=control, control_o=control, segment_i=segment, segment_o=segment)
+
+
+def model(dut, control, segment, dead):
+    """Control and segment by the golden model; whether the control points and the ends mean something."""
+    n1, steps, width, degree = (bench.parameter(dut, name) for name in ("N1", "K", "W", "D"))
+    control, segment = dict(control), dict(segment)
+    if control["status"] != RUN:
+        return control, segment, False, True
+    last = control["level"] == steps - 1
+    item = [0] * SIZE
+    item[BOX : BOX + 3] = control["box"]
+    item[C : C + 6] = segment["start"] + segment["stop"]
+    item[DEPTH : DEPTH + 2] = segment["depth_start"], segment["depth_stop"]
+    item[B : B + degree + 1] = segment["b"]
+    status = RUN
+    if dead:
+        status = DONE
+    elif last:
+        status = HIT if settle(item) and changes(item, B, degree) else DONE
+    else:
+        control["level"] += 1
+        normalize(item, B, degree + 1, width, width, norm_limit(n1))
+    if status == DONE and control["pending"]:
+        status = AGAIN
+    if control["steps"] == STEPS_MAX and status != HIT:
+        status = DONE
+    control["status"] = status
+    segment = dict(start=item[C : C + 3], stop=item[C + 3 : C + 6], b=item[B : B + degree + 1])
+    segment |= dict(depth_start=item[DEPTH], depth_stop=item[DEPTH + 1])
+    return control, segment, status == RUN, not dead
+
+
+def stimuli(dut, count):
+    """Items of every status and level; cells at the faces of the box; steps at their limit."""
+    n1, steps, width, degree = (bench.parameter(dut, name) for name in ("N1", "K", "W", "D"))
+    random = bench.rng()
+    points = bench.vectors(random, width, degree + 1, count)
+    for b in points:
+        box = [random.choice((0, 0, 1, 2, random.randrange(1 << BOX_WIDTH))) for _ in range(3)]
+        start = [random.choice((-1, 1)) * (1 << (COORD_FRAC + 1 - m)) if m else 0 for m in box]
+        if random.random() < 0.3:
+            start = [random.randint(bench.low(COORD_WIDTH), bench.high(COORD_WIDTH)) for _ in box]
+        else:
+            start = [int(v * random.choice((1, 1, random.random()))) + random.randint(-3, 3) for v in start]
+        start = [max(bench.low(COORD_WIDTH), min(bench.high(COORD_WIDTH), v)) for v in start]
+        stop = [bench.signed(v + random.randint(-5, 5), COORD_WIDTH) for v in start]
+        depths = [random.randint(0, bench.high(DEPTH_WIDTH)) for _ in range(2)]
+        control = dict(
+            status=random.choice((IDLE, RUN, RUN, RUN, RUN, RUN, AGAIN, HIT, DONE)),
+            paper=random.getrandbits(1),
+            roots=random.getrandbits(ROOTS_WIDTH),
+            box=box,
+            level=random.choice((0, steps - 1, steps - 1, random.randrange(steps))),
+            steps=random.choice((1, STEPS_MAX - 1, STEPS_MAX, random.randint(1, STEPS_MAX))),
+            follow=random.getrandbits(1),
+            pending=random.getrandbits(1),
+            **{name: random.getrandbits(n1 * steps) for name in ("t", "t_min", "t_next")},
+        )
+        segment = dict(start=start, stop=stop, depth_start=depths[0], depth_stop=depths[1], b=b)
+        yield dict(control_i=control, segment_i=segment, dead_i=int(random.random() < 0.2))
+
+
+@cocotb.test
+async def equals_model(dut):
+    """Status, level, ends and scaled control points, two clocks later; other items pass unchanged."""
+    seen = set()
+    kinds = structs(dut)
+    layout = kinds["segment_o"]
+
+    def expect(item):
+        control, segment, points, ends = model(dut, item["control_i"], item["segment_i"], item["dead_i"])
+        seen.add((item["control_i"]["status"], control["status"]))
+        given = layout.unpack(bench.Port(dut, "segment_o").read()[0])
+        if not points:
+            segment["b"] = given["b"]  # no longer needed
+        if not ends:
+            segment |= {name: given[name] for name in ("start", "stop", "depth_start", "depth_stop")}
+        return dict(control_o=control, segment_o=segment)
+
+    await bench.start(dut)
+    await bench.pipeline(dut, stimuli(dut, 1500), expect, LATENCY, kinds)
+    assert seen == {(RUN, s) for s in (RUN, HIT, AGAIN, DONE)} | {(s, s) for s in (IDLE, AGAIN, HIT, DONE)} or (
+        bench.parameter(dut, "K") == 1 and (RUN, RUN) not in seen
+    ), seen
+
+
+@cocotb.test
+async def within_bound(dut):
+    """A hit's ends have met within half an ulp of the exact middle, half up; the point is in the box."""
+    hits = 0
+    for number, item in enumerate(stimuli(dut, 1500)):
+        control, segment, _, _ = model(dut, item["control_i"], item["segment_i"], item["dead_i"])
+        if item["control_i"]["status"] != RUN or control["status"] != HIT:
+            continue
+        hits += 1
+        old = item["segment_i"]
+        pairs = [*zip(old["start"], old["stop"], strict=True), (old["depth_start"], old["depth_stop"])]
+        point = [*segment["start"], segment["depth_start"]]
+        good = point == [*segment["stop"], segment["depth_stop"]] and (old["b"][0] > 0) != (old["b"][-1] > 0)
+        good &= all(0 <= p - Fraction(a + b, 2) <= Fraction(1, 2) for p, (a, b) in zip(point, pairs, strict=True))
+        good &= all(-(2 ** (1 - m)) <= Fraction(p, 1 << COORD_FRAC) < Fraction(2) ** (1 - m)
+                    for p, m in zip(point[:3], control["box"], strict=True))  # fmt: skip
+        if not good:
+            raise bench.mismatch(number, item, [f"the model has {control} {segment}"])
+    assert hits > 20, f"only {hits} hits"
+
+
+SETS = [dict(N1=3, K=8, W=36, D=4), dict(N1=1, K=32, W=16, D=2), dict(N1=4, K=1, W=48, D=3)]
+
+
+@pytest.mark.parametrize("parameters", SETS, ids=bench.label)
+def test_settle(parameters):
+    """The reference, the most steps, a single step."""
+    bench.run(__name__, "rdx_settle", parameters)
