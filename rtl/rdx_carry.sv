@@ -4,7 +4,7 @@
 // They are halved by the same averages as the control points (rdx_cells with D = 1), so no multiplication is needed
 // for the hit point or its depth.
 //
-// Formats    ends_i: at the cell's ends; coords_o, depths_o: x, y, z (s2p30) and depth (s1p31) at the J+1 boundaries;
+// Formats    ends_i: at the cell's ends; coords_o: x, y, z (s2p30) at the J+1 boundaries;
 //            cell_o: both ends of cell pick_i.
 // Rounding   half up in each average.    Overflow   cannot happen, as in rdx_halve.
 // Timing     coords_o after N1*HalveStages clocks; cell_o belongs to pick_i, Wait clocks later. No reset, no stall.

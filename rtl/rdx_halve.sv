@@ -5,7 +5,7 @@
 // Rounding   each average is (a + b + 1) >> 1: half up, at most half an ulp, never outside [min(a, b), max(a, b)].
 // Overflow   cannot happen: every output lies within the hull of the inputs.
 // Timing     latency Stages clocks (0 is combinational), one cell a clock; no reset, no stall.
-//            The registers stand between the D rows of averages, as evenly as they can.
+//            The registers stand behind the D rows of averages, as evenly as they can.
 // Error      row r adds at most 1/2 ulp: the inner end is within D/2 ulp of the exact value; outer ends are exact.
 // Model      model/raydix/halve.py
 `default_nettype none
@@ -32,8 +32,8 @@ module rdx_halve #(
     return W'(((W + 1)'(x) + (W + 1)'(y) + (W + 1)'(1)) >>> 1);
   endfunction
 
-  // A row holds the left half so far in [0, r], the values still to be averaged in [r, D], and the right half's
-  // end in the last places: after row r, row[0..r-1] is final for the left half.
+  // After row r the left half's places 0 to r are final, and so are the right half's from D-r on, in work; work[0]
+  // to work[D-r] are the averages of the row.
   for (genvar r = 1; r <= D; r++) begin : gen_row
     localparam int unsigned Registers = (r * Stages) / D - ((r - 1) * Stages) / D;
     logic signed [W-1:0] left_d[D+1];  // places below r are final

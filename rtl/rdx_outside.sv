@@ -6,7 +6,7 @@
 //
 // Formats    boundaries_i: x, y, z (s2p30) at the J+1 cell boundaries; box_i: m of x, y, z.
 // Timing     combinational
-// Model      model/raydix/select.py (beyond), model/raydix/step.py (outside_cells)
+// Model      model/raydix/outside.py
 `default_nettype none
 
 module rdx_outside #(
@@ -23,7 +23,7 @@ module rdx_outside #(
   always_comb begin
     outside_o = '0;
     for (int unsigned axis = 0; axis < 3; axis++) begin
-      coord_t face_bits;  // the m bits below the sign
+      coord_t face_bits;  // the sign and the m bits below it
       face_bits = ~coord_t'({CoordWidth{1'b1}} >> 1 >> box_i[axis]);
       for (int unsigned j = 0; j <= J; j++) begin
         sign[axis][j] = boundaries_i[axis][j][CoordWidth-1];

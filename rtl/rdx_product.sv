@@ -7,7 +7,7 @@
 // Formats    quads_i: s64p0, q(h,h), q(h,e), q(e,e) of Q3, Q1, Q2. Operands: s36p0, products s60p0.
 //            segment_o.b: sWp0, normalised so that the largest coefficient uses all W bits.
 // Rounding   operands half up (2^-27), products floor (2^-12), result floor to W bits; all else is exact.
-// Overflow   cannot happen: compile keeps |Q1|, |Q2| < 2^62 and |Q3| <= 2^59 (2^60 without a product), so |6F| < 2^63.
+// Overflow   cannot happen: compile keeps |Q1|, |Q2| < 2^62 - 2^26 and |Q3| <= 2^59 (2^60 without a product), so |6F| < 2^63.
 // Timing     latency 6 clocks that advance (3 for D = 2), one ray a clock; it advances when the last stage is
 //            empty or taken.
 // Reset      valid only.
@@ -37,6 +37,10 @@ module rdx_product #(
     output segment_t            segment_o
 );
   import rdx_pkg::*;
+
+  if (D != 2 && D != 4) begin : gen_illegal_d
+    $fatal(1, "rdx_product: D = %0d; allowed: 2 (quadrics) or 4 (quartics too)", D);
+  end
 
   localparam int unsigned FormLatency = D == 4 ? 4 : 1;  // operands, products, sums, weights
   localparam int unsigned Latency = FormLatency + NormalizeLatency;

@@ -7,9 +7,9 @@
 //
 // Formats    quads_i: s64p0, c then a then b; operands of the product s36p0 (accumulator / 2^27, half up), products s60p0
 //            (/ 2^12, floor); form_o: s64p0.
-// Overflow   cannot happen: compile keeps |a|, |b| < 2^62 and |c| <= 2^59, or 2^60 where quartic_i = 0.
+// Overflow   cannot happen: compile keeps |a|, |b| < 2^62 - 2^26 and |c| <= 2^59, or 2^60 where quartic_i = 0.
 // Timing     latency 4 clocks in which en_i = 1: operands, products, sums, weights; one a clock.
-// Model      model/raydix/product.py
+// Model      model/raydix/quartic.py
 `default_nettype none
 
 module rdx_quartic (

@@ -156,6 +156,10 @@ module rdx_raster #(
   end
   assign quartic_o = quartic_q;
 
+  if (D == 2) begin : gen_quadrics
+    // the words of Q1 and Q2 would be taken for the next descriptor
+    `RDX_ASSERT(a_quadric, !(load && state_q == Header && desc_data_i[SurfaceWidth+RootsWidth+1]))
+  end
   `RDX_STREAM(a_ray, ray_valid_o, ray_ready_i, {ray_o, ends_o})
 
 endmodule

@@ -8,7 +8,8 @@
 // the full pipeline, a ray a clock, and U = 1 one step unit shared by all rays in flight.
 //
 // Formats    ray_i: rdx_pkg::ray_t; segment_i: first ends and control points; hit_o: rdx_pkg::hit_t. A ray leaves one
-//            record for each root, in order of t, and the last one is marked; rays may overtake each other.
+//            record for each root, in order of t, and one without a hit where it ends without a further root; the last
+//            record is marked. Rays may overtake each other.
 // Timing     a new ray is taken where an empty slot comes by, in the best case every clock; a ray that needs s steps in
 //            one descent is back after ceil(s/U) turns of Slots = U*latency of rdx_step + 2 clocks.
 // Reset      status of the slots only; takes Slots clocks after the release, in which no ray is taken.

@@ -31,8 +31,8 @@ module rdx_select #(
 
   localparam bit HasCertified = (Rules & rdx_pkg::RuleCertified) != 0;
   localparam bit HasPaper = (Rules & rdx_pkg::RulePaper) != 0;
-  if (!HasCertified && !HasPaper) begin : gen_illegal_rules
-    $fatal(1, "rdx_select: Rules = 0; allowed: 1 certified, 2 paper, 3 both");
+  if (Rules < 1 || Rules > 3) begin : gen_illegal_rules
+    $fatal(1, "rdx_select: Rules = %0d; allowed: 1 certified, 2 paper, 3 both", Rules);
   end
 
   // Sign logic on the control points

@@ -7,7 +7,7 @@
 // Formats    as in rdx_step; dead_i: no cell was found.
 // Rounding   half up in the middle; the scaling is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
 // Timing     latency rdx_pkg::NormalizeLatency = 2 clocks, one item a clock; no reset, no stall.
-// Model      model/raydix/step.py (settle, step)
+// Model      model/raydix/settle.py, and the verdict in model/raydix/step.py
 `default_nettype none
 `include "rdx_types.svh"
 

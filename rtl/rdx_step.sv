@@ -3,8 +3,8 @@
 //
 // Formats    control_*, segment_*: the item, RDX_CONTROL_T and RDX_SEGMENT_T of rdx_types.svh; ends s2p30 and s1p31,
 //            control points sWp0, digits u0p<N1*K>. A Run item comes back as Run (digits left), Hit (last digit fixed,
-//            the ends have met in the hit point), Again (no cell left here, one is pending) or Done. Others pass
-//            unchanged, but for the control points, which only Run items need.
+//            the ends have met in the hit point), Again (nothing found here, a cell is pending) or Done. The control
+//            part of others passes unchanged, and so do the ends of a Hit, which are equal.
 // Rounding   half up in each average; normalising is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
 // Timing     latency rdx_pkg::step_latency(N1, HalveStages, Rules) clocks, one item a clock; no stall.
 //            Without reset: the status of an item comes from the ring, which resets its own.

@@ -192,7 +192,7 @@ async def within_bound(dut):
         if old["t"] | pick << shift != control["t"] or not 0 <= pick < cells:
             lines.append(f"t became {control['t']:#x}")
         by_paper = rules == PAPER_ONLY or (rules == BOTH and old["paper"])
-        if old["follow"] and not by_paper and control["t"] >> shift < (old["t"] | old["t_min"] % (cells << shift)) >> shift:
+        if old["follow"] and not by_paper and pick < (old["t_min"] >> shift) % cells:
             lines.append(f"t became {control['t']:#x}, before t_min")
         lanes = list(zip(segment["start"], segment["stop"], moved["start"], moved["stop"], strict=True))
         lanes.append(tuple(s[name] for s in (segment, moved) for name in ("depth_start", "depth_stop")))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The item that travels in the ring: one ray and one surface (mirrors ``item_t`` of ``rtl/rdx_types.svh``).
+"""The item that travels in the ring: one ray and one surface (mirrors the types of ``rtl/rdx_types.svh``).
 
 In the golden model an item is a vector of integers; these are the positions of its fields.
 """
