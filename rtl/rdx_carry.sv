@@ -9,7 +9,7 @@
 // Rounding   half up in each average.    Overflow   cannot happen, as in rdx_halve.
 // Timing     coords_o after N1*HalveStages clocks; cell_o belongs to pick_i, Wait clocks later. No reset, no stall.
 // Error      at most N1/2 ulp a step
-// Model      model/raydix/step.py (descend), model/raydix/outside.py
+// Model      model/raydix/carry.py
 `default_nettype none
 
 module rdx_carry #(

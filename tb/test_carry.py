@@ -8,9 +8,9 @@ import pytest
 from cocotb.triggers import FallingEdge, ReadOnly
 
 import bench
+from raydix.carry import descend
 from raydix.cells import subdivide
 from raydix.formats import COORD_WIDTH, DEPTH_WIDTH
-from raydix.step import descend
 
 
 def model(start, stop, pick, n1):

@@ -1,26 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """One step of the descent: fixes the next n1 binary digits of t (mirrors ``rtl/rdx_step.sv``)."""
 
+from .carry import descend
 from .cells import subdivide
 from .formats import STEPS_MAX
-from .halve import average
 from .item import AGAIN, DEPTH, DONE, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
 from .kernel import kernel
 from .normalize import norm_limit, normalize
 from .outside import outside_cells
 from .select import certified, changes, paper
 from .settle import settle
-
-
-@kernel
-def descend(item, at, other, pick, n1):
-    """Replace the ends ``item[at]``, ``item[other]`` of a linear value by those of cell ``pick``."""
-    for bit in range(n1 - 1, -1, -1):
-        middle = average(item[at], item[other])
-        if (pick >> bit) & 1:
-            item[at] = middle
-        else:
-            item[other] = middle
 
 
 @kernel

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an item carries linearly along its segment: coordinates and depth (mirrors ``rtl/rdx_carry.sv``)."""
+
+from .halve import average
+from .kernel import kernel
+
+
+@kernel
+def descend(item, at, other, pick, n1):
+    """Replace the ends ``item[at]``, ``item[other]`` of a linear value by those of cell ``pick``."""
+    for bit in range(n1 - 1, -1, -1):
+        middle = average(item[at], item[other])
+        if (pick >> bit) & 1:
+            item[at] = middle
+        else:
+            item[other] = middle
