@@ -56,7 +56,7 @@ def compare(frame, received):
                 elif got[-1]["steps"] != hits.steps[at]:
                     lines.append(f"steps: expected {hits.steps[at]}, got {got[-1]['steps']}")
                 if lines:
-                    raise bench.mismatch(key, {"words": hits.surface.words}, lines)
+                    raise bench.mismatch(key, {"words": list(hits.surface.words)}, lines)
     assert not by_ray, f"records of rays that there are not: {by_ray}"
 
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the RTL with Verilator and runs frames through it: ``tb/frame/frame.cpp`` around ``rdx_core``."""
 
+import fcntl
 import hashlib
 import json
 import os
-import shutil
+import platform
 import subprocess
 import sys
 import tempfile
@@ -103,28 +104,36 @@ def build(config: Config, trace: str | None = None) -> Path:
     arguments += ["--cc", "--exe", "--build", "-j", "2", "-Wall", "--assert", "-O3", "--x-assign", "fast"]
     arguments += ["--x-initial", "fast", "--top-module", "rdx_core", f"-I{RTL}", "-MAKEFLAGS", MAKE_FLAGS]
     arguments += _trace_arguments(trace)
-    headers = sorted(RTL.glob("*.svh"))
-    content = b"".join(p.read_bytes() for p in [*sources(), *headers, BENCH])
-    key = hashlib.sha256(content + repr(arguments).encode()).hexdigest()[:20]
-    target = BUILD / key
-    if (target / "frame").exists():
-        return target / "frame"
+    files = [*sources(), *sorted(RTL.glob("*.svh")), BENCH]
+    content = b"".join(p.read_bytes() for p in files) + repr((arguments, _processor())).encode()
+    binary = BUILD / hashlib.sha256(content).hexdigest()[:20]
     BUILD.mkdir(parents=True, exist_ok=True)
-    work = Path(tempfile.mkdtemp(prefix="building-", dir=BUILD))
-    command = ["verilator", *arguments, "-Mdir", str(work), "-o", "frame", *map(str, sources()), str(BENCH)]
+    with open(f"{binary}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # a second process waits for the first one's build
+        if not binary.exists():
+            _verilate(arguments, binary)
+    return binary
+
+
+def _processor() -> str:
+    """What -march=native depends on, as far as the system tells."""
     try:
+        return next(line for line in open("/proc/cpuinfo") if line.startswith(("flags", "Features")))
+    except (OSError, StopIteration):
+        return platform.processor()
+
+
+def _verilate(arguments: list[str], binary: Path) -> None:
+    """Build in a folder of its own and move the binary to its name when it is complete."""
+    with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as work:
+        command = ["verilator", *arguments, "-Mdir", work, "-o", "frame", *map(str, sources()), str(BENCH)]
         run = subprocess.run(command, env=environment(), capture_output=True, text=True)
+        output = run.stdout + run.stderr
         if run.returncode:
-            log = BUILD / f"{key}.log"
-            log.write_text(run.stdout + run.stderr)
-            raise RtlError(f"verilator failed; log: {log}\n" + "\n".join((run.stdout + run.stderr).splitlines()[-12:]))
-        if not target.exists():
-            shutil.rmtree(target, ignore_errors=True)
-            os.makedirs(target)
-            os.replace(work / "frame", target / "frame")
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
-    return target / "frame"
+            log = binary.with_suffix(".log")
+            log.write_text(output)
+            raise RtlError(f"verilator failed; log: {log}\n" + "\n".join(output.splitlines()[-12:]))
+        os.replace(Path(work, "frame"), binary)
 
 
 def _collect(compiled: CompiledFrame, records: np.ndarray) -> list[SurfaceHits]:
