@@ -77,8 +77,10 @@ module rdx_halve #(
     );
   end
 
-  assign left_o  = gen_row[D].left_q;
-  assign right_o = gen_row[D].work_q;
+  if (D >= 1) begin : gen_out
+    assign left_o  = gen_row[D].left_q;
+    assign right_o = gen_row[D].work_q;
+  end
 
 endmodule
 

@@ -6,6 +6,7 @@ starts the simulator by :func:`run`. Functions marked ``@cocotb.test`` (whose na
 pytest leaves them alone) run inside of the simulator. Streams with valid and ready are in ``streams.py``.
 """
 
+import contextlib
 import hashlib
 import itertools
 import os
@@ -14,6 +15,7 @@ import secrets
 import shutil
 import tempfile
 import time
+import warnings
 from importlib.metadata import version
 from pathlib import Path
 from unittest.mock import patch
@@ -77,7 +79,7 @@ def build(toplevel, parameters, waves=None):
             place.mkdir()
             for file in files:
                 shutil.move(file, place)
-            if not name.exists():
+            with contextlib.suppress(OSError):  # another worker was first
                 os.replace(place, name)
         log.unlink()
     return target
@@ -104,7 +106,8 @@ def run(module, toplevel, parameters=None, checks=None):
         file = WAVES / f"{name}.{waves}"
         WAVES.mkdir(parents=True, exist_ok=True)
         arguments = ["--trace", "--trace-file", str(file)]
-        print(f"waveform ({'lz4.h found' if waves == 'fst' else 'no lz4.h, so not fst'}): {file}")
+        # a warning, because pytest shows those of tests that pass, too, and by parallel workers
+        warnings.warn(f"waveform ({'lz4.h found' if waves == 'fst' else 'no lz4.h, so not fst'}): {file}", stacklevel=2)
     settings = {**environment(), "MAKEFLAGS": MAKE_VARIABLES, "WAVES": ""}
     with patch.dict(os.environ, settings):
         os.environ.pop("PYTEST_CURRENT_TEST", None)  # else the runner ends the process where a test fails
