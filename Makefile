@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules speed clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -46,6 +46,9 @@ accuracy: $(READY) ## every scene's error against float64 roots of the ideal sce
 
 rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 	@$(BIN)/python scripts/rules.py $(ARGS)
+
+speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE=scenes/torus.toml ARGS=)
+	@$(BIN)/python scripts/speed.py $(SCENE) $(ARGS)
 
 clean: ## remove build/
 	rm -rf build

@@ -45,4 +45,4 @@ def words(values):
 
 def zeros(count):
     """``count`` zeros in the form of :func:`words`."""
-    return words([0] * count)
+    return np.zeros(count, object if INTERPRETED else np.int64)
