@@ -18,12 +18,12 @@ from .config import RULES, Config, ConfigError
 from .image import ImageError, write_frame
 from .rtl import RtlError, build
 from .scene import Scene, SceneError, load_scene
+from .surfaces import form
 
 if TYPE_CHECKING:
     from .render import Verdict
 
 USER_ERRORS = (SceneError, ConfigError, ImageError, RtlError)
-QUARTICS = ("torus", "cyclide", "quartic")
 REFERENCE_DIGITS = 24
 
 
@@ -71,7 +71,7 @@ def _config(args: argparse.Namespace, scene: Scene) -> Config:
         raise ConfigError(f"threads: found {args.threads}; allowed: 1 or more")
     steps = REFERENCE_DIGITS // args.n1 if args.steps is None else args.steps
     units = max(1, min(8, steps)) if args.units is None else args.units
-    degree = 4 if any(s.type in QUARTICS for s in scene.surfaces) else 2
+    degree = 4 if any(form(s).q1 is not None for s in scene.surfaces) else 2
     return Config(args.n1, steps, args.width, degree, units, args.rule, args.rule)
 
 

@@ -20,9 +20,8 @@ from pydantic import model_validator as _model_validator
 from pydantic_core import PydanticCustomError
 
 from raydix import surfaces
+from raydix.formats import MAX_IMAGE, MAX_SURFACES
 
-MAX_IMAGE = 4096  # largest width and height that the configured pixel words hold
-MAX_SURFACES = 64
 LARGEST = 1e9  # magnitude of any length, coordinate or coefficient
 SMALLEST = 1e-9  # of a length that must be positive
 
