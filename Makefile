@@ -3,8 +3,8 @@
 
 PYTHON ?= python3
 SCENE  ?= scenes/torus.toml
-OUT    ?= build/render/$(basename $(notdir $(SCENE)))
 JOBS   ?= 2
+MODULE := $(T:rdx_%=%)
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
@@ -26,14 +26,16 @@ $(READY): requirements.lock scripts/preflight.sh
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
 
-render: $(READY) ## golden model and RTL render SCENE=scenes/torus.toml, compared bit for bit (OUT=, ARGS=)
-	@$(BIN)/raydix verify $(SCENE) --out $(OUT) $(ARGS)
+render: $(READY) ## golden model and RTL render SCENE=scenes/torus.toml, compared bit for bit (OUT=build/render/<scene> ARGS=)
+	@$(BIN)/raydix verify "$(SCENE)" $(if $(OUT),--out "$(OUT)") $(ARGS)
 
 gallery: $(READY) ## the same for every scene in scenes/
-	@for s in scenes/*.toml; do $(BIN)/raydix verify $$s --out build/render/$$(basename $$s .toml) $(ARGS) || exit 1; done
+	@for s in scenes/*.toml; do $(BIN)/raydix verify $$s $(ARGS) || exit 1; done
 
 test: $(READY) ## the whole regression (T=<module> SEED=<n> WAVES=1 JOBS=2)
-	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),tb/test_$(T).py)
+	@[ -z "$(T)" ] || [ -f "tb/test_$(MODULE).py" ] || { \
+	  echo "make test: found T=$(T); allowed: $(patsubst tb/test_%.py,%,$(wildcard tb/test_*.py))" >&2; exit 2; }
+	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),-v tb/test_$(MODULE).py)
 
 lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, generated files
 	@$(BIN)/python -m pytest -q tb/test_lint.py
@@ -41,14 +43,14 @@ lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, gen
 formats: $(READY) ## write the constants of rtl/rdx_pkg.sv and docs/number-formats.md from their one table
 	@$(BIN)/python -m raydix.formats --write
 
-accuracy: $(READY) ## every scene's error against float64 roots of the ideal scene (ARGS=)
-	@$(BIN)/python scripts/accuracy.py $(ARGS)
+accuracy: $(READY) ## error against float64 roots of the ideal scene, of SCENE= or of every scene (ARGS=)
+	@$(BIN)/python scripts/accuracy.py $(if $(filter command environment,$(firstword $(origin SCENE))),"$(SCENE)") $(ARGS)
 
 rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 	@$(BIN)/python scripts/rules.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE=scenes/torus.toml ARGS=)
-	@$(BIN)/python scripts/speed.py $(SCENE) $(ARGS)
+	@$(BIN)/python scripts/speed.py "$(SCENE)" $(ARGS)
 
 clean: ## remove build/
 	rm -rf build

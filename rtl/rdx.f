@@ -1,3 +1,4 @@
++incdir+.
 rdx_pkg.sv
 rdx_delay.sv
 rdx_register.sv

@@ -12,7 +12,7 @@ package rdx_pkg;
   localparam int unsigned CoordAccWidth = 48;
   // s1p31: camera depth in units of the frame's scale; never negative
   localparam int unsigned DepthWidth = 32;
-  // s64p0: accumulator of a quadric's control point, |value| < 2^62
+  // s64p0: accumulator of a quadric's control point, magnitude below 2^62
   localparam int unsigned QuadAccWidth = 64;
   // s36p0: operand of the quartic product: accumulator / 2^27, half up
   localparam int unsigned OperandWidth = 36;

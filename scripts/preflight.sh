@@ -12,10 +12,12 @@ need g++ "Verilator compiles the RTL with it (Debian: apt-get install g++)"
 need perl "Verilator's front end is a perl script (Debian: apt-get install perl)"
 need make "Verilator builds with it (Debian: apt-get install make)"
 need git "the tests list the project's files with it (Debian: apt-get install git)"
-if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
-    echo "raydix: $($python --version 2>&1) is too old; Python 3.11 or later is needed (make PYTHON=...)" >&2
-    exit 1
-fi
+version=$("$python" -c 'import sys; print("python", sys.version_info >= (3, 11), sys.version.split()[0])' 2>/dev/null)
+case "$version" in
+    "python True "*) ;;
+    "python False "*) echo "raydix: $python is Python ${version##* }; 3.11 or later is needed (make PYTHON=...)" >&2; exit 1 ;;
+    *) echo "raydix: $python is not a working Python 3.11 or later (make PYTHON=...)" >&2; exit 1 ;;
+esac
 if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
     echo "raydix: $python cannot build virtual environments (Debian: apt-get install python3-venv)" >&2
     exit 1

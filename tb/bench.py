@@ -26,7 +26,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
 from raydix import formats
-from raydix.rtl import ROOT, RTL, environment, has_fst, sources
+from raydix.rtl import ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources
 
 BUILD = ROOT / "build" / "tb"
 WAVES = ROOT / "build" / "waves"
@@ -42,6 +42,12 @@ MAKE_VARIABLES = "CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_FAST=-O0 
 def label(parameters):
     """Name of a set of parameters: ``W=3-D=4``."""
     return "-".join(f"{name}={value}" for name, value in parameters.items()) or "default"
+
+
+def _trace_arguments(toplevel, waves):
+    """Waveforms of the larger modules leave out the insides of those that only hold or halve values."""
+    small = toplevel in ("rdx_delay", "rdx_halve", "rdx_cells")
+    return [f"--trace-{waves}", "--trace-structs", *([] if small else [str(TRACE_CONTROL)])]
 
 
 def build(toplevel, parameters, waves=None):
@@ -68,7 +74,7 @@ def build(toplevel, parameters, waves=None):
         try:
             get_runner("verilator").build(
                 hdl_toplevel=toplevel, sources=sources(), includes=[RTL], parameters=parameters, build_dir=work,
-                build_args=["--assert", *([f"--trace-{waves}", "--trace-structs"] if waves else [])],
+                build_args=["--assert", *(_trace_arguments(toplevel, waves) if waves else [])],
                 waves=bool(waves), log_file=log,
             )  # fmt: skip
         except RuntimeError as error:

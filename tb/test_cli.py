@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command line: what it writes, what it refuses, and its exit status."""
 
+import csv
+import json
 import os
 import shutil
 import subprocess
@@ -11,6 +13,7 @@ import numpy as np
 import OpenImageIO as oiio
 import pytest
 
+from raydix import image
 from raydix.cli import main
 from raydix.image import CHANNELS
 
@@ -116,6 +119,57 @@ def test_compare(rendered, tmp_path, capsys):
         assert bad in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("ending", [".png", ".exr", ".npz"])
+def test_damaged_files_are_refused(rendered, ending, tmp_path, capsys):
+    """A file cut short or with flipped bytes is exit status 2 and one line, never 'equal' and never a traceback."""
+    whole = (rendered / f"torus{ending}").read_bytes()
+    flipped = bytearray(whole)
+    for i in range(len(whole) // 3, len(whole) // 3 + 60):
+        flipped[i] ^= 0xFF
+    for name, content in (("cut", whole[: len(whole) // 2]), ("flipped", bytes(flipped)), ("none", b"")):
+        path = tmp_path / f"{name}{ending}"
+        path.write_bytes(content)
+        status = main(["compare", str(path), str(path)])
+        assert status == 2 or (name == "flipped" and status == 0), name  # pixels may be damaged and still readable
+        assert main(["compare", str(rendered / f"torus{ending}"), str(path)]) == (1 if status == 0 else 2)
+        assert "Traceback" not in capsys.readouterr().err
+
+
+def test_single_array_is_refused(tmp_path, capsys):
+    """An .npy under the name .npz."""
+    with (tmp_path / "a.npz").open("wb") as file:
+        np.save(file, np.zeros(3))
+    assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.npz")]) == 2
+    assert "a.npz: not a readable npz file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("what", ["png", "exr", "missing array", "dtype", "shape", "missing file"])
+def test_compare_sees_every_difference(rendered, what, tmp_path, capsys):
+    """A changed pixel of a PNG or EXR, a missing array, another type or shape, a missing file: exit status 1."""
+    for path in rendered.iterdir():
+        shutil.copy(path, tmp_path)
+    if what in ("png", "exr"):
+        path = tmp_path / f"torus.{what}"
+        pixels = image.read_image(path)
+        pixels[5, 7, 1] += 1
+        names = ("R", "G", "B") if what == "png" else CHANNELS
+        image._write_image(path, pixels, names, "uint8" if what == "png" else "float")
+    elif what == "missing file":
+        (tmp_path / "torus.exr").unlink()
+    else:
+        data = dict(np.load(tmp_path / "torus.npz"))
+        if what == "missing array":
+            del data["normal"]
+        elif what == "dtype":
+            data["depth"] = data["depth"].astype(np.float32)
+        else:
+            data["t"] = data["t"][:-1]
+        np.savez(tmp_path / "torus.npz", **data)
+    assert main(["compare", str(rendered), str(tmp_path)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 1, lines
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -135,6 +189,53 @@ def test_bad_option_is_refused(options, words, tmp_path, capsys):
     assert main(["render", str(ROOT / "scenes" / "torus.toml"), "--out", str(out), *options]) == 2
     assert words in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_mixed_endings_are_refused(rendered, capsys):
+    """An npz against a picture is a mistake of the user, not a difference."""
+    assert main(["compare", str(rendered / "torus.npz"), str(rendered / "torus.exr")]) == 2
+    assert "allowed: the same ending" in capsys.readouterr().err
+
+
+def test_export(tmp_path, rendered):
+    """words.hex is what the RTL is fed, and hits.csv what it answers."""
+    from raydix.compile import compile_scene, descriptor_array
+    from raydix.config import Config
+    from raydix.scene import load_scene
+
+    assert (
+        main(["export", str(ROOT / "scenes" / "torus.toml"), *SMALL, "--out", str(tmp_path / "new" / "stimulus")]) == 0
+    )
+    words = [int(line, 16) for line in (tmp_path / "new" / "stimulus" / "words.hex").read_text().split()]
+    compiled = compile_scene(load_scene(ROOT / "scenes" / "torus.toml", 48, 36), Config())
+    assert words == [int(w) % 2**64 for w in descriptor_array(compiled)]
+    rows = list(csv.DictReader((tmp_path / "new" / "stimulus" / "hits.csv").open()))
+    x0, y0, x1, y1 = compiled.surfaces[0].rect
+    assert len(rows) == (x1 - x0 + 1) * (y1 - y0 + 1)
+    data = np.load(rendered / "torus.npz")
+    for row in rows:
+        assert int(row["t"]) == max(0, data["t"][int(row["y"]), int(row["x"])])
+        assert int(row["hit"]) == (data["t"][int(row["y"]), int(row["x"])] >= 0)
+    assert json.loads((tmp_path / "new" / "stimulus" / "parameters.json").read_text())["rdx_core"]["N1"] == 3
+
+
+def test_nothing_in_view(tmp_path, capsys):
+    """A camera that looks away gives a picture of the background and says so."""
+    scene = tmp_path / "away.toml"
+    scene.write_text(TORUS.replace("look_at = [0.0, 0.0, 0.0]", "look_at = [6.0, -8.0, 5.0]"))
+    assert main(["render", str(scene), *SMALL, "--out", str(tmp_path / "out")]) == 0
+    assert "1 of 1 surfaces are out of view" in capsys.readouterr().err
+    assert (np.load(tmp_path / "out" / "away.npz")["surface"] == -1).all()
+
+
+def test_wave_into_a_new_folder(tmp_path):
+    """The folder of a waveform is made; one that cannot be is an error."""
+    base = ["render", str(ROOT / "scenes" / "sphere.toml"), "--backend", "rtl", "--size", "8x6", "--units", "1"]
+    base += ["--steps", "2", "--out", str(tmp_path / "out"), "--wave"]
+    assert main([*base, str(tmp_path / "new" / "a.vcd")]) == 0
+    assert (tmp_path / "new" / "a.vcd").stat().st_size < 60_000_000
+    (tmp_path / "file").write_text("")
+    assert main([*base, str(tmp_path / "file" / "a.vcd")]) == 2
 
 
 def test_malformed_options(tmp_path):
@@ -202,22 +303,42 @@ def test_unwritable_output(tmp_path, capsys):
     assert str(tmp_path / "file") in capsys.readouterr().err
 
 
-def test_failed_write_leaves_nothing(rendered, tmp_path, monkeypatch):
-    """If writing fails half-way, neither the file nor a part of it is left, and an older file stays as it was."""
-    from raydix import image
+def no_space(*_):
+    """A disk that is full half-way through a file."""
+    raise OSError(28, "No space left on device")
 
-    path = tmp_path / "torus.npz"
-    path.write_text("older")
 
-    def fail(work, **_):
-        Path(work).write_text("half")
-        raise OSError(28, "No space left on device")
+def test_failed_write_leaves_nothing(tmp_path):
+    """If one of several files cannot be written, none has changed and no part of one is left."""
+    older = {name: tmp_path / name for name in ("a.png", "b.npz")}
+    for path in older.values():
+        path.write_text("older")
 
-    monkeypatch.setattr(image.np, "savez_compressed", fail)
-    with pytest.raises(image.ImageError, match="No space left"):
-        image._replace(path, lambda work: image.np.savez_compressed(work))
+    def half(work):
+        work.write_text("half")
+        no_space()
+
+    writers = {older["a.png"]: lambda work: work.write_text("newer"), older["b.npz"]: half}
+    with pytest.raises(image.ImageError, match="b.npz: cannot be written: No space left"):
+        image.write_files(writers)
+    assert sorted(os.listdir(tmp_path)) == ["a.png", "b.npz"]
+    assert {path.read_text() for path in older.values()} == {"older"}
+
+
+def test_folder_in_the_way(rendered, tmp_path, capsys):
+    """A folder with the name of one of the files: nothing of the render is written."""
+    (tmp_path / "torus.npz").mkdir()
+    assert main(["render", str(ROOT / "scenes" / "torus.toml"), *SMALL, "--out", str(tmp_path)]) == 2
+    assert "torus.npz: cannot be written: there is a folder of this name" in capsys.readouterr().err
     assert os.listdir(tmp_path) == ["torus.npz"]
-    assert path.read_text() == "older"
+
+
+def test_picture_cut_short_is_an_error(tmp_path, monkeypatch):
+    """A picture whose last bytes cannot be written is not moved into place."""
+    monkeypatch.setattr(image.oiio.ImageOutput, "close", lambda self: False)
+    with pytest.raises(image.ImageError, match="a.png: cannot be written"):
+        image.write_files({tmp_path / "a.png": image.png_writer(np.zeros((4, 4, 3), np.uint8))})
+    assert os.listdir(tmp_path) == []
 
 
 @pytest.mark.parametrize("missing", ["g++", "perl"])

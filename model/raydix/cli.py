@@ -14,8 +14,9 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from .compile import CompiledFrame
 from .config import RULES, Config, ConfigError
-from .image import ImageError, write_frame
+from .image import ImageError, frame_writers, write_files
 from .rtl import RtlError, build
 from .scene import Scene, SceneError, load_scene
 from .surfaces import form
@@ -28,7 +29,7 @@ REFERENCE_DIGITS = 24
 
 
 def _size(text: str) -> tuple[int, int]:
-    match = re.fullmatch(r"(\d+)[xX×](\d+)", text)
+    match = re.fullmatch(r"([0-9]{1,6})[xX×]([0-9]{1,6})", text)
     if not match:
         raise argparse.ArgumentTypeError(f"found '{text}'; allowed: WIDTHxHEIGHT, for example 640x480")
     return int(match[1]), int(match[2])
@@ -43,7 +44,6 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
     parser.add_argument("--size", type=_size, metavar="WxH", help="image size instead of the scene's")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the pictures")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -53,10 +53,15 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True)
     render = commands.add_parser("render", help="render a scene: PNG, EXR and npz")
     _add_scene_options(render)
+    render.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the pictures")
     render.add_argument("--backend", choices=("golden", "rtl"), default="golden", help="who computes (default: golden)")
     render.add_argument("--wave", type=Path, metavar="FILE", help="with --backend rtl: write a waveform, .vcd or .fst")
     verify = commands.add_parser("verify", help="render by golden model and RTL and compare them bit for bit")
     _add_scene_options(verify)
+    verify.add_argument("--out", type=Path, metavar="DIR", help="folder (default: build/render/<scene>)")
+    export = commands.add_parser("export", help="descriptor words and expected hits, for a test bench of your own")
+    _add_scene_options(export)
+    export.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
     compare = commands.add_parser("compare", help="compare two outputs; exit status 1 if they differ")
     compare.add_argument("a", type=Path, metavar="A", help="an .npz, .exr or .png file, or a folder of render")
     compare.add_argument("b", type=Path, metavar="B", help="another")
@@ -96,8 +101,18 @@ def _load(args: argparse.Namespace) -> Scene:
 def _build(config: Config, trace: str | None = None) -> None:
     """Build the simulator, with a word about it: it takes a while."""
     console = Console(stderr=True)
-    with console.status(f"building the RTL with Verilator (U = {config.units}, about half a minute) …"):
+    text = f"building the RTL with Verilator (U = {config.units}; at most half a minute, nothing if it stands) …"
+    if not console.is_terminal:
+        print(f"raydix: {text}", file=sys.stderr, flush=True)
+    with console.status(text):
         build(config, trace)
+
+
+def _say_what_is_seen(scene: Scene, compiled: CompiledFrame) -> None:
+    """A word on stderr where not all surfaces are in view."""
+    hidden = len(scene.surfaces) - len(compiled.surfaces)
+    if hidden:
+        print(f"raydix: {hidden} of {len(scene.surfaces)} surfaces are out of view", file=sys.stderr)
 
 
 def _render(args: argparse.Namespace) -> int:
@@ -114,7 +129,8 @@ def _render(args: argparse.Namespace) -> int:
             frame = render_golden(scene, config, args.threads, bar("golden model, rays"))
         else:
             frame = render_rtl(scene, config, bar("RTL, rays"), args.wave)
-    for path in write_frame(frame, args.out, scene.name):
+    _say_what_is_seen(scene, frame.hits.compiled)
+    for path in write_files(frame_writers(frame, args.out, scene.name)):
         print(path)
     return 0
 
@@ -124,7 +140,7 @@ def _table(verdict: "Verdict", pixels: int) -> Table:
     sides = [(frame.hits, frame.hits.counts()) for frame in (verdict.golden, verdict.rtl)]
     rows = {
         "time, s": [f"{hits.seconds:.3f}" for hits, _ in sides],
-        "Mpixel/s": [f"{pixels / hits.seconds / 1e6:.2f}" if hits.seconds else "–" for hits, _ in sides],
+        "Mpixel/s": [f"{pixels / hits.seconds / 1e6:.2f}" if counts["rays"] else "–" for hits, counts in sides],
         "rays": [f"{counts['rays']:,}" for _, counts in sides],
         "rays that hit": [f"{counts['hit_rays']:,}" for _, counts in sides],
         "hits": [f"{counts['hits']:,}" for _, counts in sides],
@@ -148,18 +164,30 @@ def _verify(args: argparse.Namespace) -> int:
 
     scene = _load(args)
     config = _config(args, scene)
+    out = args.out or Path("build", "render", scene.name)
     _build(config)
     with _progress() as bar:
         verdict = verify(scene, config, args.threads, (bar("golden model, rays"), bar("RTL, rays")))
-    write_verdict(verdict, args.out, scene.name)
+    write_verdict(verdict, out, scene.name)
+    _say_what_is_seen(scene, verdict.golden.hits.compiled)
     print(
         f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: n1 = {config.n1}, "
         f"K = {config.steps}, W = {config.width}, D = {config.degree}, U = {config.units}"
     )
     Console().print(_table(verdict, scene.camera.width * scene.camera.height))
     print(f"differing bits: {verdict.hit_bits} in the hits, {verdict.image_bits} in the images")
-    print(f"pictures: {args.out}/golden, {args.out}/rtl, {args.out}/{scene.name}-difference.png")
+    print(f"pictures: {out}/golden, {out}/rtl, {out}/{scene.name}-difference.png")
     return int(bool(verdict.hit_bits or verdict.image_bits))
+
+
+def _export(args: argparse.Namespace) -> int:
+    from .export import export
+
+    scene = _load(args)
+    with _progress() as bar:
+        paths = export(scene, _config(args, scene), args.out, bar("golden model, rays"))
+    print("\n".join(map(str, paths)))
+    return 0
 
 
 def _compare(args: argparse.Namespace) -> int:
@@ -174,7 +202,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run the command line. Exit status: 0 fine, 1 outputs differ, 2 bad input, 130 interrupted."""
     args = _parser().parse_args(argv)
     try:
-        return {"render": _render, "verify": _verify, "compare": _compare}[args.command](args)
+        return {"render": _render, "verify": _verify, "export": _export, "compare": _compare}[args.command](args)
     except USER_ERRORS as error:
         for line in str(error).splitlines():
             print(f"raydix: {line}", file=sys.stderr)

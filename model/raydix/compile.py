@@ -163,21 +163,25 @@ class Quadratic(NamedTuple):
     c02: mp.mpf
 
     def bound(self, columns, rows):
-        """A bound of the magnitude over [0, columns] x [0, rows]: the largest of the nine Bernstein coefficients."""
+        """A bound over [0, columns] x [0, rows]: the largest Bernstein coefficient or difference of the lane."""
         x, y = columns, rows
         a = {(0, 0): self.c00, (1, 0): self.c10 * x, (0, 1): self.c01 * y, (2, 0): self.c20 * x * x}
         a |= {(1, 1): self.c11 * x * y, (0, 2): self.c02 * y * y}
         share = ((1, 0, 0), (1, mp.mpf(1) / 2, 0), (1, 1, 1))  # of x^p in Bernstein coefficient i
-        return max(
+        inside = max(
             abs(sum(share[i][p] * share[j][q] * value for (p, q), value in a.items()))
             for i in range(3)
             for j in range(3)
         )
+        return max(inside, *(abs(v) for v in self.differences()))
+
+    def differences(self):
+        """Forward differences at the rectangle's first pixel: value, dx, dy, dxx, dxy, dyy."""
+        return self.c00, self.c10 + self.c20, self.c01 + self.c02, 2 * self.c20, self.c11, 2 * self.c02
 
     def lane(self, factor):
-        """Words of the forward-difference lane: value, dx, dy, dxx, dxy, dyy, times ``factor``."""
-        values = (self.c00, self.c10 + self.c20, self.c01 + self.c02, 2 * self.c20, self.c11, 2 * self.c02)
-        return [int(mp.nint(v * factor)) for v in values]
+        """Words of the forward-difference lane: the differences times ``factor``."""
+        return [int(mp.nint(v * factor)) for v in self.differences()]
 
 
 def _blossom(q, p, pw, s, sw):

@@ -50,7 +50,7 @@ TABLE = (
     Constant("CoordWidth", COORD_WIDTH, "s2p30", "local coordinate, in units of the surface's axis scale"),
     Constant("CoordAccWidth", COORD_ACC_WIDTH, "s2p46", "forward-difference accumulator of a coordinate"),
     Constant("DepthWidth", DEPTH_WIDTH, "s1p31", "camera depth in units of the frame's scale; never negative"),
-    Constant("QuadAccWidth", QUAD_ACC_WIDTH, "s64p0", "accumulator of a quadric's control point, |value| < 2^62"),
+    Constant("QuadAccWidth", QUAD_ACC_WIDTH, "s64p0", "accumulator of a quadric's control point, magnitude below 2^62"),
     Constant("OperandWidth", OPERAND_WIDTH, "s36p0", "operand of the quartic product: accumulator / 2^27, half up"),
     Constant("OperandShift", OPERAND_SHIFT, "", "bits dropped from an accumulator to make an operand"),
     Constant("ProductDrop", PRODUCT_DROP, "", "bits dropped (floor) from the product of two operands"),

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Picture files: PNG, multi-channel EXR and npz. Written under a temporary name first, so none is ever half written."""
+"""Picture files: PNG, multi-channel EXR and npz. Either all of a render are written or none."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -23,34 +24,50 @@ def _write_image(path: Path, pixels: np.ndarray, names: tuple[str, ...], kind: s
     if path.suffix == ".exr":
         spec.attribute("compression", "zip")
     out = oiio.ImageOutput.create(str(path))
-    if out is None or not out.open(str(path), spec) or not out.write_image(np.ascontiguousarray(pixels)):
-        raise ImageError(f"{path}: {out.geterror() if out else oiio.geterror()}")
-    out.close()
+    if out is None:
+        raise OSError(oiio.geterror())
+    if not out.open(str(path), spec) or not out.write_image(np.ascontiguousarray(pixels)) or not out.close():
+        raise OSError(out.geterror())
 
 
-def _replace(path: Path, write) -> None:
-    """Call ``write`` with a temporary name beside ``path`` and move the result there when it is complete."""
-    work = path.with_name(f".{path.stem}.part{os.getpid()}{path.suffix}")
+def write_files(writers: dict[Path, Callable[[Path], None]]) -> list[Path]:
+    """Write several files, all or none: each under a temporary name beside its own, then all are renamed.
+
+    writers  final path -> function that writes the file under the path that it is given, or raises OSError
+    Returns the paths. Folders are made. Raises :class:`ImageError`; then no file has changed.
+    """
+    work = {}
+    path = None
     try:
-        write(work)
-        os.replace(work, path)
+        for path, write in writers.items():
+            if path.is_dir():
+                raise OSError("there is a folder of this name")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            work[path] = path.with_name(f".{path.stem}.part{os.getpid()}{path.suffix}")
+            write(work[path])
+        for path, part in work.items():
+            os.replace(part, path)
     except OSError as error:
-        raise ImageError(f"{path}: {error.strerror or error}") from None
+        raise ImageError(f"{path}: cannot be written: {error.strerror or error}") from None
     finally:
-        work.unlink(missing_ok=True)
+        for part in work.values():
+            part.unlink(missing_ok=True)
+    return list(writers)
 
 
-def write_png(path: Path, rgb: np.ndarray) -> None:
-    """An 8-bit PNG from uint8 (H, W, 3)."""
-    _replace(path, lambda work: _write_image(work, rgb, ("R", "G", "B"), "uint8"))
+def png_writer(rgb: np.ndarray) -> Callable[[Path], None]:
+    """Writes an 8-bit PNG from uint8 (H, W, 3)."""
+    return lambda work: _write_image(work, rgb, ("R", "G", "B"), "uint8")
 
 
 def read_image(path: Path) -> np.ndarray:
-    """Pixels (H, W, channels) of a PNG or EXR in the file's own type."""
+    """Pixels (H, W, channels) of a PNG or EXR in the file's own type. Raises :class:`ImageError`."""
     image = oiio.ImageInput.open(str(path))
     if image is None:
-        raise ImageError(f"{path}: {oiio.geterror()}")
+        raise ImageError(f"{path}: not a readable picture: {oiio.geterror().strip()}")
     pixels = image.read_image(image.spec().format)
+    if pixels is None:
+        raise ImageError(f"{path}: not a readable picture: {image.geterror().strip()}")
     image.close()
     return np.atleast_3d(pixels)
 
@@ -60,22 +77,16 @@ def arrays(frame: Frame) -> dict[str, np.ndarray]:
     return {name: getattr(frame, name) for name in ("depth", "t", "surface", "normal", "rgb")}
 
 
-def write_frame(frame: Frame, out: Path, name: str) -> list[Path]:
-    """Write ``name``.png, .exr and .npz into the folder ``out``, which is made if missing; returns the paths.
+def frame_writers(frame: Frame, out: Path, name: str) -> dict[Path, Callable[[Path], None]]:
+    """What :func:`write_files` needs for ``name``.png, .exr and .npz in the folder ``out``.
 
     EXR channels, float32: R, G, B (linear), Z (camera depth, inf = miss), normal.X/Y/Z, surface (-1 = miss).
     npz: depth float64, t int64, surface int16, normal float32, rgb uint8; see :class:`~raydix.shade.Frame`.
-    Raises :class:`ImageError`.
     """
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ImageError(f"{out}: {error.strerror}") from None
-    layers = np.concatenate(
-        [frame.linear, frame.depth[..., None], frame.normal, frame.surface[..., None]], axis=2
-    ).astype(np.float32)
-    paths = [out / f"{name}{ending}" for ending in (".png", ".exr", ".npz")]
-    write_png(paths[0], frame.rgb)
-    _replace(paths[1], lambda work: _write_image(work, layers, CHANNELS, "float"))
-    _replace(paths[2], lambda work: np.savez_compressed(work, **arrays(frame)))
-    return paths
+    planes = [frame.linear, frame.depth[..., None], frame.normal, frame.surface[..., None]]
+    layers = np.concatenate(planes, axis=2).astype(np.float32)
+    return {
+        out / f"{name}.png": png_writer(frame.rgb),
+        out / f"{name}.exr": lambda work: _write_image(work, layers, CHANNELS, "float"),
+        out / f"{name}.npz": lambda work: np.savez_compressed(work, **arrays(frame)),
+    }

@@ -10,7 +10,7 @@ from .compile import compile_scene
 from .config import Config
 from .golden import trace_golden
 from .hits import FrameHits, differing_bits
-from .image import write_frame, write_png
+from .image import frame_writers, png_writer, write_files
 from .rtl import trace_rtl
 from .scene import Scene
 from .shade import Frame, compose
@@ -63,12 +63,11 @@ def verify(scene: Scene, config: Config, threads: int = 1, progress=None) -> Ver
     return Verdict(*frames, differing_bits(golden, rtl), _image_bits(*frames))
 
 
-def write_verdict(verdict: Verdict, out: Path, name: str) -> None:
+def write_verdict(verdict: Verdict, out: Path, name: str) -> list[Path]:
     """Write both outputs (``out``/golden, ``out``/rtl) and the difference picture: black where they are equal."""
-    write_frame(verdict.golden, out / "golden", name)
-    write_frame(verdict.rtl, out / "rtl", name)
     a, b = verdict.golden, verdict.rtl
     differs = (a.rgb != b.rgb).any(axis=2) | (a.t != b.t) | (a.surface != b.surface) | (a.depth != b.depth)
     picture = np.zeros_like(a.rgb)
     picture[differs] = (255, 0, 0)
-    write_png(out / f"{name}-difference.png", picture)
+    writers = frame_writers(a, out / "golden", name) | frame_writers(b, out / "rtl", name)
+    return write_files(writers | {out / f"{name}-difference.png": png_writer(picture)})

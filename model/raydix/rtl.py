@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import platform
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 RTL = ROOT / "rtl"
 BENCH = ROOT / "tb" / "frame" / "frame.cpp"
 BUILD = ROOT / "build" / "rtl"
+TRACE_CONTROL = ROOT / "tb" / "trace.vlt"  # leaves out what would make waveforms huge
 RULES = {"certified": 1, "paper": 2, "both": 3}
 
 # layout of Record in tb/frame/frame.cpp
@@ -47,7 +49,7 @@ class RtlError(RuntimeError):
 
 def sources() -> list[Path]:
     """The RTL files in the order of ``rtl/rdx.f``."""
-    return [RTL / line.strip() for line in (RTL / "rdx.f").read_text().splitlines() if line.strip()]
+    return [RTL / line for line in (RTL / "rdx.f").read_text().split() if not line.startswith("+")]
 
 
 def parameters(config: Config) -> dict[str, int]:
@@ -91,7 +93,7 @@ def _trace_arguments(trace: str | None) -> list[str]:
         raise RtlError(
             "waveform format: found 'fst'; allowed: vcd (fst needs lz4.h, Debian: apt-get install liblz4-dev)"
         )
-    return [f"--trace-{trace}", "--trace-structs", "-CFLAGS", f"-DRDX_TRACE_{trace.upper()}"]
+    return [f"--trace-{trace}", "--trace-structs", str(TRACE_CONTROL), "-CFLAGS", f"-DRDX_TRACE_{trace.upper()}"]
 
 
 def build(config: Config, trace: str | None = None) -> Path:
@@ -125,6 +127,10 @@ def _processor() -> str:
 
 def _verilate(arguments: list[str], binary: Path) -> None:
     """Build in a folder of its own and move the binary to its name when it is complete."""
+    for tool in ("perl", "make", "c++"):
+        if shutil.which(tool) is None:
+            package = "g++" if tool == "c++" else tool
+            raise RtlError(f"{tool} is missing; Verilator needs it (Debian: apt-get install {package})")
     with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as work:
         command = ["verilator", *arguments, "-Mdir", work, "-o", "frame", *map(str, sources()), str(BENCH)]
         run = subprocess.run(command, env=environment(), capture_output=True, text=True)
@@ -181,6 +187,11 @@ def trace_rtl(
     """
     total = sum(SurfaceHits.empty(s).steps.size for s in compiled.surfaces)
     binary = build(config, wave.suffix[1:] if wave else None)
+    if wave:
+        try:
+            wave.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise RtlError(f"{wave.parent}: cannot make the folder: {error.strerror}") from None
     with tempfile.TemporaryDirectory() as folder:
         words, out = Path(folder, "words"), Path(folder, "records")
         words.write_bytes(descriptor_array(compiled).tobytes())

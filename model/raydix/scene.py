@@ -83,7 +83,7 @@ def _cross(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, float, fl
 def _is_regular(rows: tuple[tuple[float, ...], ...]) -> bool:
     lengths = [_length(row) for row in rows]
     det = sum(p * q for p, q in zip(rows[0], _cross(rows[1], rows[2]), strict=True))
-    return min(lengths) >= SMALLEST and abs(det) >= 1e-9 * math.prod(lengths)
+    return min(lengths) >= SMALLEST and abs(det) >= 1e-6 * math.prod(lengths)
 
 
 Number = Annotated[float, _number("a number from -1e9 to 1e9", lambda v: abs(v) <= LARGEST)]
@@ -105,7 +105,7 @@ Color = Annotated[tuple[Unit, Unit, Unit], _array(3, "three numbers [red, green,
 Matrix = Annotated[
     tuple[Vector, Vector, Vector],
     _array(3, "three rows of three numbers"),
-    _after("a matrix that is not singular (|det| >= 1e-9 * product of its row lengths)", _is_regular),
+    _after("a matrix that is not singular (|det| >= 1e-6 * product of its row lengths)", _is_regular),
 ]
 Clip = Annotated[
     tuple[Vector, Vector],

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
         context.traceEverOn(true);
         top.trace(&trace, 99);
         trace.open(trace_name.c_str());
+        if (!trace.isOpen()) return fail("cannot write ", trace_name.c_str());
     }
 #else
     if (!trace_name.empty()) return fail("built without --trace");
