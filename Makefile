@@ -2,8 +2,8 @@
 # Thin: every target sets up what is missing, then calls one program. `make help` lists them.
 
 PYTHON ?= python3
-SCENE  ?= scenes/torus.toml
 JOBS   ?= 2
+FIGURE2 := scenes/torus.toml scenes/hyperboloid.toml
 MODULE := $(T:rdx_%=%)
 VENV   := .venv
 BIN    := $(VENV)/bin
@@ -26,11 +26,11 @@ $(READY): requirements.lock scripts/preflight.sh
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
 
-render: $(READY) ## golden model and RTL render SCENE=scenes/torus.toml, compared bit for bit (OUT=build/render/<scene> ARGS=)
-	@$(BIN)/raydix verify "$(SCENE)" $(if $(OUT),--out "$(OUT)") $(ARGS)
+render: $(READY) ## golden model and RTL render the paper's figure 2, or SCENE=, compared bit for bit (OUT=build/render/<scene> ARGS=)
+	@$(BIN)/raydix verify $(if $(SCENE),"$(SCENE)",$(FIGURE2)) $(if $(OUT),--out "$(OUT)") $(ARGS)
 
 gallery: $(READY) ## the same for every scene in scenes/
-	@for s in scenes/*.toml; do $(BIN)/raydix verify $$s $(ARGS) || exit 1; done
+	@$(BIN)/raydix verify scenes/*.toml $(ARGS)
 
 test: $(READY) ## the whole regression (T=<module> SEED=<n> WAVES=1 JOBS=2)
 	@[ -z "$(T)" ] || [ -f "tb/test_$(MODULE).py" ] || { \
@@ -44,13 +44,13 @@ formats: $(READY) ## write the constants of rtl/rdx_pkg.sv and docs/number-forma
 	@$(BIN)/python -m raydix.formats --write
 
 accuracy: $(READY) ## error against float64 roots of the ideal scene, of SCENE= or of every scene (ARGS=)
-	@$(BIN)/python scripts/accuracy.py $(if $(filter command environment,$(firstword $(origin SCENE))),"$(SCENE)") $(ARGS)
+	@$(BIN)/python scripts/accuracy.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
 rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 	@$(BIN)/python scripts/rules.py $(ARGS)
 
-speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE=scenes/torus.toml ARGS=)
-	@$(BIN)/python scripts/speed.py "$(SCENE)" $(ARGS)
+speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
+	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
 clean: ## remove build/
 	rm -rf build

@@ -238,6 +238,44 @@ def test_wave_into_a_new_folder(tmp_path):
     assert main([*base, str(tmp_path / "file" / "a.vcd")]) == 2
 
 
+def test_verify(tmp_path, monkeypatch, capsys):
+    """Several scenes side by side: 0 differing bits in the table, and both outputs and the difference of each."""
+    monkeypatch.chdir(tmp_path)
+    scenes = [str(ROOT / "scenes" / f"{name}.toml") for name in ("sphere", "saddle")]
+    options = ["--size", "24x18", "--units", "1", "--steps", "2"]
+    assert main(["verify", *scenes, *options]) == 0
+    text = capsys.readouterr().out
+    assert "sphere: 0 bits differ in the hits, 0 in the images" in text
+    assert "saddle: 0 bits differ in the hits, 0 in the images" in text
+    for name in ("sphere", "saddle"):
+        folder = tmp_path / "build" / "render" / name
+        assert main(["compare", str(folder / "golden"), str(folder / "rtl")]) == 0
+        assert not image.read_image(folder / f"{name}-difference.png").any()
+    assert main(["verify", *scenes, *options, "--out", str(tmp_path / "x")]) == 2
+    assert main(["verify", scenes[0], scenes[0], *options]) == 2
+    assert not (tmp_path / "x").exists()
+
+
+def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
+    """One bit of one hit changed on its way from the RTL: exit status 1, and a red pixel."""
+    from raydix import render
+
+    honest = render.trace_rtl
+
+    def faulty(*args, **keywords):
+        hits = honest(*args, **keywords)
+        hits.surfaces[0].t[9, 9, 0] ^= 1
+        return hits
+
+    monkeypatch.setattr(render, "trace_rtl", faulty)
+    sphere = str(ROOT / "scenes" / "sphere.toml")
+    options = ["--size", "24x18", "--units", "1", "--steps", "2", "--out", str(tmp_path)]
+    assert main(["verify", sphere, *options]) == 1
+    assert "sphere: 1 bits differ in the hits" in capsys.readouterr().out
+    picture = image.read_image(tmp_path / "sphere-difference.png")
+    assert (picture.reshape(-1, 3) == (255, 0, 0)).all(axis=1).sum() == 1
+
+
 def test_malformed_options(tmp_path):
     """What argparse refuses is exit status 2 as well."""
     for options in (["--size", "big"], ["--rule", "best"], ["--n1", "three"], []):

@@ -36,7 +36,6 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("scene", type=Path, help="scene file (TOML)")
     parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
     parser.add_argument("--n1", type=int, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)")
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
@@ -52,14 +51,17 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(dest="command", required=True)
     render = commands.add_parser("render", help="render a scene: PNG, EXR and npz")
+    render.add_argument("scene", type=Path, help="scene file (TOML)")
     _add_scene_options(render)
     render.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the pictures")
     render.add_argument("--backend", choices=("golden", "rtl"), default="golden", help="who computes (default: golden)")
     render.add_argument("--wave", type=Path, metavar="FILE", help="with --backend rtl: write a waveform, .vcd or .fst")
     verify = commands.add_parser("verify", help="render by golden model and RTL and compare them bit for bit")
+    verify.add_argument("scene", type=Path, nargs="+", help="scene files (TOML), with different names")
     _add_scene_options(verify)
     verify.add_argument("--out", type=Path, metavar="DIR", help="folder (default: build/render/<scene>)")
     export = commands.add_parser("export", help="descriptor words and expected hits, for a test bench of your own")
+    export.add_argument("scene", type=Path, help="scene file (TOML)")
     _add_scene_options(export)
     export.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
     compare = commands.add_parser("compare", help="compare two outputs; exit status 1 if they differ")
@@ -94,8 +96,8 @@ def _progress() -> Iterator[Callable[[str], Callable[[int, int], None]]]:
         yield bar
 
 
-def _load(args: argparse.Namespace) -> Scene:
-    return load_scene(args.scene, *(args.size or (None, None)))
+def _load(args: argparse.Namespace, path: Path) -> Scene:
+    return load_scene(path, *(args.size or (None, None)))
 
 
 def _build(config: Config, trace: str | None = None) -> None:
@@ -118,7 +120,7 @@ def _say_what_is_seen(scene: Scene, compiled: CompiledFrame) -> None:
 def _render(args: argparse.Namespace) -> int:
     from .render import render_golden, render_rtl
 
-    scene = _load(args)
+    scene = _load(args, args.scene)
     config = _config(args, scene)
     if args.wave and args.backend != "rtl":
         raise ConfigError(f"wave: found '{args.wave}' with the golden model; allowed: with --backend rtl")
@@ -135,25 +137,31 @@ def _render(args: argparse.Namespace) -> int:
     return 0
 
 
-def _table(verdict: "Verdict", pixels: int) -> Table:
-    """Golden model and RTL side by side."""
-    sides = [(frame.hits, frame.hits.counts()) for frame in (verdict.golden, verdict.rtl)]
-    rows = {
-        "time, s": [f"{hits.seconds:.3f}" for hits, _ in sides],
-        "Mpixel/s": [f"{pixels / hits.seconds / 1e6:.2f}" if counts["rays"] else "–" for hits, counts in sides],
-        "rays": [f"{counts['rays']:,}" for _, counts in sides],
-        "rays that hit": [f"{counts['hit_rays']:,}" for _, counts in sides],
-        "hits": [f"{counts['hits']:,}" for _, counts in sides],
-        "steps per ray that hits": [f"{counts['steps_per_hit']:.3f}" for _, counts in sides],
-        "steps per ray that misses": [f"{counts['steps_per_miss']:.3f}" for _, counts in sides],
-        "cycles": [f"{hits.cycles:,}" if hits.cycles else "–" for hits, _ in sides],
-        "cycles per ray": [
-            f"{hits.cycles / counts['rays']:.4f}" if hits.cycles and counts["rays"] else "–" for hits, counts in sides
-        ],
-    }
+def _table(verdicts: "dict[str, Verdict]") -> Table:
+    """Golden model and RTL side by side, for each scene."""
     table = Table()
-    for name in ("", "golden model", "RTL"):
-        table.add_column(name, justify="right" if name else "left")
+    table.add_column("")
+    sides, bits = [], []
+    for name, verdict in verdicts.items():
+        for label, frame in (("golden", verdict.golden), ("RTL", verdict.rtl)):
+            table.add_column(f"{name}\n{label}", justify="right")
+            sides.append((frame.hits, frame.hits.counts(), frame.t.size))
+            bits.append(f"{verdict.hit_bits + verdict.image_bits:,}" if label == "RTL" else "–")
+    rows = {
+        "time, s": [f"{hits.seconds:.3f}" for hits, _, _ in sides],
+        "Mpixel/s": [f"{pixels / hits.seconds / 1e6:.2f}" if counts["rays"] else "–" for hits, counts, pixels in sides],
+        "rays": [f"{counts['rays']:,}" for _, counts, _ in sides],
+        "rays that hit": [f"{counts['hit_rays']:,}" for _, counts, _ in sides],
+        "hits": [f"{counts['hits']:,}" for _, counts, _ in sides],
+        "steps per hitting ray": [f"{counts['steps_per_hit']:.3f}" for _, counts, _ in sides],
+        "steps per missing ray": [f"{counts['steps_per_miss']:.3f}" for _, counts, _ in sides],
+        "cycles": [f"{hits.cycles:,}" if hits.cycles else "–" for hits, _, _ in sides],
+        "cycles per ray": [
+            f"{hits.cycles / counts['rays']:.4f}" if hits.cycles and counts["rays"] else "–"
+            for hits, counts, _ in sides
+        ],
+        "differing bits": bits,
+    }
     for name, values in rows.items():
         table.add_row(name, *values)
     return table
@@ -162,28 +170,43 @@ def _table(verdict: "Verdict", pixels: int) -> Table:
 def _verify(args: argparse.Namespace) -> int:
     from .render import verify, write_verdict
 
-    scene = _load(args)
-    config = _config(args, scene)
-    out = args.out or Path("build", "render", scene.name)
-    _build(config)
-    with _progress() as bar:
-        verdict = verify(scene, config, args.threads, (bar("golden model, rays"), bar("RTL, rays")))
-    write_verdict(verdict, out, scene.name)
-    _say_what_is_seen(scene, verdict.golden.hits.compiled)
-    print(
-        f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: n1 = {config.n1}, "
-        f"K = {config.steps}, W = {config.width}, D = {config.degree}, U = {config.units}"
-    )
-    Console().print(_table(verdict, scene.camera.width * scene.camera.height))
-    print(f"differing bits: {verdict.hit_bits} in the hits, {verdict.image_bits} in the images")
-    print(f"pictures: {out}/golden, {out}/rtl, {out}/{scene.name}-difference.png")
-    return int(bool(verdict.hit_bits or verdict.image_bits))
+    if args.out and len(args.scene) > 1:
+        raise ConfigError(f"out: found a folder for {len(args.scene)} scenes; allowed: with one scene")
+    work = []
+    for path in args.scene:
+        scene = _load(args, path)
+        work.append((scene, _config(args, scene), args.out or Path("build", "render", scene.name)))
+    names = [scene.name for scene, _, _ in work]
+    if len(set(names)) < len(names):
+        raise ConfigError(f"scene: found the names {', '.join(names)}; allowed: files with different names")
+    verdicts: dict[str, Verdict] = {}
+    for scene, config, out in work:
+        _build(config)
+        with _progress() as bar:
+            bars = bar(f"{scene.name}: golden model, rays"), bar(f"{scene.name}: RTL, rays")
+            verdict = verify(scene, config, args.threads, bars)
+        write_verdict(verdict, out, scene.name)
+        _say_what_is_seen(scene, verdict.golden.hits.compiled)
+        verdicts[scene.name] = verdict
+        print(
+            f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: n1 = {config.n1}, "
+            f"K = {config.steps}, W = {config.width}, D = {config.degree}, U = {config.units}"
+        )
+    shown = list(verdicts.items())
+    for i in range(0, len(shown), 2):  # two scenes fit a terminal of 80 columns
+        Console().print(_table(dict(shown[i : i + 2])))
+    for verdict, (scene, _, out) in zip(verdicts.values(), work, strict=True):
+        print(
+            f"{scene.name}: {verdict.hit_bits} bits differ in the hits, {verdict.image_bits} in the images; "
+            f"pictures: {out}/golden, {out}/rtl, {out}/{scene.name}-difference.png"
+        )
+    return int(any(v.hit_bits or v.image_bits for v in verdicts.values()))
 
 
 def _export(args: argparse.Namespace) -> int:
     from .export import export
 
-    scene = _load(args)
+    scene = _load(args, args.scene)
     with _progress() as bar:
         paths = export(scene, _config(args, scene), args.out, bar("golden model, rays"))
     print("\n".join(map(str, paths)))
