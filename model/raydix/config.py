@@ -59,11 +59,6 @@ class Config:
         """J, the cells of a step."""
         return 1 << self.n1
 
-    @property
-    def norm_bits(self) -> int:
-        """Bits of the step's normaliser shift: it covers a double root, which loses 2*n1 bits a step."""
-        return (2 * self.n1).bit_length()
-
     def with_(self, **changes) -> "Config":
         """A copy with other values."""
         return replace(self, **changes)
