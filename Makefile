@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules speed clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules speed synth clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -51,6 +51,9 @@ rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
 	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+
+synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
+	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)
 
 clean: ## remove build/
 	rm -rf build

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The intersection core: surface descriptors in, hits out.
 //
+// One raster; for algebraic surfaces rdx_product and a ring, for vector-sum surfaces rdx_ends and another ring; one hit
+// stream. What a scene does not need is not built: D = 0 leaves out the algebraic part, Vecsum = 0 the other.
+//
 // Formats    desc_data_i: 64-bit descriptor words; hit_*_o: the fields of rdx_pkg::hit_t.
-// Timing     one ray a clock at U = K where nothing stalls; see rdx_raster, rdx_product and rdx_ring.
+// Timing     one algebraic ray a clock at U = K where nothing stalls; see rdx_raster, rdx_product, rdx_ends and rdx_ring.
 // Reset      rst_ni, synchronous, active low; control only.
 // Model      model/raydix/core.py
 `default_nettype none
@@ -15,7 +18,10 @@ module rdx_core #(
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
-    parameter int unsigned HalveStages = (D + 1) / 2
+    parameter int unsigned HalveStages = (D + 1) / 2,
+    parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
+    parameter int unsigned Lanes = (1 << N1) - 1,
+    parameter int unsigned VectorUnits = 1
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -36,15 +42,18 @@ module rdx_core #(
 );
   import rdx_pkg::*;
 
-  localparam int unsigned Quads = D == 4 ? 9 : 3;
-  localparam type segment_t = `RDX_SEGMENT_T(W, D);
+  if (Vecsum > VecsumGeneral || (Vecsum == VecsumNone && D == 0)) begin : gen_illegal_vecsum
+    $fatal(1, "rdx_core: Vecsum = %0d; allowed: 0 none (where D > 0), 1 helix, 2 general", Vecsum);
+  end
 
-  logic raster_valid, raster_ready, quartic;
+  logic raster_valid, raster_ready, quartic, vector, vector_idle;
   ray_t raster_ray;
   ends_t raster_ends;
-  quad_t quads[Quads];
+  quad_t quads[D == 4 ? 9 : 3];
+  form_t form;
   rdx_raster #(
-      .D(D)
+      .D(D),
+      .Vector(Vecsum != VecsumNone)
   ) u_raster (
       .clk_i,
       .rst_ni,
@@ -56,49 +65,86 @@ module rdx_core #(
       .ray_o(raster_ray),
       .ends_o(raster_ends),
       .quartic_o(quartic),
+      .vector_o(vector),
+      .vector_idle_i(vector_idle),
+      .form_o(form),
       .quads_o(quads)
   );
 
-  logic ray_valid, ray_ready;
-  ray_t     ray;
-  segment_t segment;
-  rdx_product #(
-      .W(W),
-      .D(D)
-  ) u_product (
-      .clk_i,
-      .rst_ni,
-      .ray_valid_i(raster_valid),
-      .ray_ready_o(raster_ready),
-      .ray_i(raster_ray),
-      .ends_i(raster_ends),
-      .quartic_i(quartic),
-      .quads_i(quads),
-      .ray_valid_o(ray_valid),
-      .ray_ready_i(ray_ready),
-      .ray_o(ray),
-      .segment_o(segment)
-  );
+  // [0]: algebraic surfaces, [1]: vector sums
+  logic [1:0] ready, hit_valid, hit_ready;
+  hit_t hits[2], hit;
+  assign raster_ready = ready[vector];
 
-  hit_t hit;
-  rdx_ring #(
-      .N1(N1),
-      .K(K),
-      .W(W),
-      .D(D),
-      .U(U),
-      .Rules(Rules),
-      .HalveStages(HalveStages)
-  ) u_ring (
+  if (D > 0) begin : gen_algebraic
+    rdx_algebraic #(
+        .N1(N1),
+        .K(K),
+        .W(W),
+        .D(D),
+        .U(U),
+        .Rules(Rules),
+        .HalveStages(HalveStages)
+    ) u_algebraic (
+        .clk_i,
+        .rst_ni,
+        .ray_valid_i(raster_valid && !vector),
+        .ray_ready_o(ready[0]),
+        .ray_i(raster_ray),
+        .ends_i(raster_ends),
+        .quartic_i(quartic),
+        .quads_i(quads),
+        .hit_valid_o(hit_valid[0]),
+        .hit_ready_i(hit_ready[0]),
+        .hit_o(hits[0])
+    );
+  end else begin : gen_no_algebraic
+    assign ready[0] = 1'b0;
+    assign hit_valid[0] = 1'b0;
+    assign hits[0] = '0;
+    wire unused = &{1'b0, hit_ready[0], quartic, quads[0], quads[1], quads[2]};
+  end
+
+  if (Vecsum != VecsumNone) begin : gen_vector
+    rdx_vector #(
+        .N1(N1),
+        .K(K),
+        .U(VectorUnits),
+        .Rules(Rules),
+        .Lanes(Lanes),
+        .General(Vecsum != VecsumHelix)
+    ) u_vector (
+        .clk_i,
+        .rst_ni,
+        .form_i(form),
+        .ray_valid_i(raster_valid && vector),
+        .ray_ready_o(ready[1]),
+        .ray_i(raster_ray),
+        .ends_i(raster_ends),
+        .idle_o(vector_idle),
+        .hit_valid_o(hit_valid[1]),
+        .hit_ready_i(hit_ready[1]),
+        .hit_o(hits[1])
+    );
+  end else begin : gen_no_vector
+    assign ready[1] = 1'b0;
+    assign vector_idle = 1'b1;
+    assign hit_valid[1] = 1'b0;
+    assign hits[1] = '0;
+    wire unused = &{1'b0, hit_ready[1], form};
+  end
+
+  rdx_merge #(
+      .T(hit_t)
+  ) u_merge (
       .clk_i,
       .rst_ni,
-      .ray_valid_i(ray_valid),
-      .ray_ready_o(ray_ready),
-      .ray_i(ray),
-      .segment_i(segment),
-      .hit_valid_o,
-      .hit_ready_i,
-      .hit_o(hit)
+      .valid_i(hit_valid),
+      .ready_o(hit_ready),
+      .data_i (hits),
+      .valid_o(hit_valid_o),
+      .ready_i(hit_ready_i),
+      .data_o (hit)
   );
 
   assign hit_surface_o = hit.surface;

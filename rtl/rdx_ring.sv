@@ -11,7 +11,8 @@
 //            record for each root, in order of t, and one without a hit where it ends without a further root; the last
 //            record is marked. Rays may overtake each other.
 // Timing     a new ray is taken where an empty slot comes by, in the best case every clock; a ray that needs s steps in
-//            one descent is back after ceil(s/U) turns of Slots = U*latency of rdx_step + 2 clocks.
+//            one descent is back after ceil(s/U) turns of U*latency of rdx_step + 2 clocks. Vector sums (D = 1): a slot
+//            every Phases clocks, and a turn is made a multiple of that.
 // Reset      status of the slots only; takes Slots clocks after the release, in which no ray is taken.
 // Model      model/raydix/ring.py
 `default_nettype none
@@ -26,23 +27,29 @@ module rdx_ring #(
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned HalveStages = (D + 1) / 2,
+    parameter int unsigned Lanes = (1 << N1) - 1,
+    parameter bit General = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic          clk_i,
-    input  wire logic          rst_ni,
-    input  wire logic          ray_valid_i,
-    output logic               ray_ready_o,
-    input  wire rdx_pkg::ray_t ray_i,
-    input  wire segment_t      segment_i,
-    output logic               hit_valid_o,
-    input  wire logic          hit_ready_i,
-    output rdx_pkg::hit_t      hit_o
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire rdx_pkg::form_t form_i,
+    input  wire logic           ray_valid_i,
+    output logic                ray_ready_o,
+    input  wire rdx_pkg::ray_t  ray_i,
+    input  wire segment_t       segment_i,
+    output logic                hit_valid_o,
+    input  wire logic           hit_ready_i,
+    output rdx_pkg::hit_t       hit_o
 );
   import rdx_pkg::*;
 
   localparam type control_t = `RDX_CONTROL_T(N1 * K);
-  localparam int unsigned Slots = U * step_latency(N1, HalveStages, Rules) + 2;
-  localparam type slot_t = logic [$clog2(Slots)-1:0];
+  // Vector sums whose lanes evaluate an item in several clocks: an item every Phases clocks, others are bubbles.
+  localparam int unsigned Phases = D == 1 ? phases((1 << N1) - 1, Lanes) : 1;
+  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
+  localparam int unsigned Slots = (U * Latency + 2 + Phases - 1) / Phases;  // that can hold an item
+  localparam int unsigned Pad = Slots * Phases - 2 - U * Latency;  // so that the ring holds a whole number of them
 
   if (U < 1 || U > K) begin : gen_illegal_u
     $fatal(1, "rdx_ring: U = %0d; allowed: 1 to K = %0d", U, K);
@@ -53,6 +60,7 @@ module rdx_ring #(
   segment_t enter_segment_q, segment[U+1];
   assign control[0] = enter_q;
   assign segment[0] = enter_segment_q;
+  logic [3:0] phase;  // of the place at the first unit
   for (genvar u = 0; u < U; u++) begin : gen_unit
     rdx_step #(
         .N1(N1),
@@ -60,9 +68,14 @@ module rdx_ring #(
         .W(W),
         .D(D),
         .Rules(Rules),
-        .HalveStages(HalveStages)
+        .HalveStages(HalveStages),
+        .Lanes(Lanes),
+        .General(General)
     ) u_step (
         .clk_i,
+        .rst_ni,
+        .phase_i  (phase_before(phase, u * Latency, Phases)),
+        .form_i,
         .control_i(control[u]),
         .segment_i(segment[u]),
         .control_o(control[u+1]),
@@ -70,51 +83,56 @@ module rdx_ring #(
     );
   end
 
-  // ---- slot numbers: of the item that leaves the last unit, of the one behind it, and of the one before it ----
-  slot_t leave_slot_q, behind_slot, enter_slot_q;
-  logic filled_q;  // the ring has turned once since the reset: what leaves the last unit has entered it
-  assign behind_slot = leave_slot_q == slot_t'(Slots - 1) ? '0 : leave_slot_q + 1'b1;
-  always_ff @(posedge clk_i) begin
-    enter_slot_q <= leave_slot_q;
-    if (!rst_ni) begin
-      leave_slot_q <= '0;
-      filled_q <= 1'b0;
-    end else begin
-      leave_slot_q <= behind_slot;
-      if (leave_slot_q == slot_t'(Slots - 1)) filled_q <= 1'b1;
-    end
-  end
-
-  // ---- memory of first segments ----
-  typedef struct packed {
+  // ---- what the items began with ----
+  localparam type first_t = struct packed {
     surface_t surface;
     pixel_t   x;
     pixel_t   y;
     segment_t segment;
-  } first_t;
-  logic [$bits(first_t)-1:0] first_mem[Slots];
-  first_t first_q;     // of the item that leaves the last unit
-  segment_t again_q;   // of the item behind the wrap
+  };
+  first_t   first;  // of the item that leaves the last unit
+  segment_t again_q;  // of the item behind the wrap
+  logic enter, filled;  // the place behind the wrap may hold an item; what leaves the last unit has entered the ring
   wire take = ray_valid_i && ray_ready_o;
-  always_ff @(posedge clk_i) begin
-    first_q <= first_mem[behind_slot];
-    again_q <= first_q.segment;
-    if (take) first_mem[enter_slot_q] <= {ray_i.surface, ray_i.x, ray_i.y, segment_i};
-  end
+  rdx_slots #(
+      .Slots(Slots),
+      .Phases(Phases),
+      .T(first_t)
+  ) u_slots (
+      .clk_i,
+      .rst_ni,
+      .take_i  (take),
+      .first_i ('{surface: ray_i.surface, x: ray_i.x, y: ray_i.y, segment: segment_i}),
+      .first_o (first),
+      .enter_o (enter),
+      .phase_o (phase),
+      .filled_o(filled)
+  );
+  always_ff @(posedge clk_i) again_q <= first.segment;
 
   // ---- leaving: hand over the record ----
   control_t back, leave_d, leave_q;
   segment_t back_segment, leave_segment_q;
   hit_t record;
+  localparam type item_t = logic [$bits(control_t)+$bits(segment_t)-1:0];
+  item_t last[1], padded[1];
   logic give, given, more_roots;
-  assign back = control[U];
-  assign back_segment = segment[U];
+  assign last[0] = {control[U], segment[U]};
+  rdx_delay #(
+      .T(item_t),
+      .Depth(Pad)
+  ) u_pad (
+      .clk_i,
+      .data_i(last),
+      .data_o(padded)
+  );
+  assign {back, back_segment} = padded[0];
   assign more_roots = back.roots > 1 && back.pending && !(&back.steps);
-  assign give = filled_q && (back.status == Hit || back.status == Done);
+  assign give = filled && (back.status == Hit || back.status == Done);
   assign record = '{
-          surface: first_q.surface,
-          x: first_q.x,
-          y: first_q.y,
+          surface: first.surface,
+          x: first.x,
+          y: first.y,
           hit: back.status == Hit,
           last: back.status == Done || !more_roots,
           t: 32'(back.t),
@@ -137,7 +155,7 @@ module rdx_ring #(
 
   always_comb begin
     leave_d = back;
-    if (!filled_q) begin
+    if (!filled) begin
       leave_d.status = Idle;
     end else if (give && given) begin
       leave_d.status = record.last ? Idle : Again;
@@ -150,32 +168,26 @@ module rdx_ring #(
   end
 
   // ---- entering: a new ray in an empty slot, a restart from the first segment ----
-  control_t enter_d;
-  segment_t enter_segment_d;
-  assign ray_ready_o = filled_q && leave_q.status == Idle;
-  always_comb begin
-    enter_d = leave_q;
-    enter_segment_d = leave_segment_q;
-    if (take) begin
-      enter_d = '0;
-      enter_d.status = Run;
-      enter_d.paper = ray_i.paper;
-      enter_d.roots = ray_i.roots;
-      enter_d.box = ray_i.box;
-      enter_segment_d = segment_i;
-    end else if (leave_q.status == Again) begin
-      enter_d.status = Run;
-      enter_d.level = '0;
-      enter_d.t = '0;
-      enter_d.t_min = leave_q.t_next;
-      enter_d.follow = 1'b1;
-      enter_d.pending = 1'b0;
-      enter_segment_d = again_q;
-    end
-  end
+  assign ray_ready_o = filled && leave_q.status == Idle && enter;
   always_ff @(posedge clk_i) begin
-    enter_q <= enter_d;
-    enter_segment_q <= enter_segment_d;
+    enter_q <= leave_q;
+    enter_segment_q <= leave_segment_q;
+    if (take) begin
+      enter_q <= '0;
+      enter_q.status <= Run;
+      enter_q.paper <= ray_i.paper;
+      enter_q.roots <= ray_i.roots;
+      enter_q.box <= ray_i.box;
+      enter_segment_q <= segment_i;
+    end else if (leave_q.status == Again) begin
+      enter_q.status <= Run;
+      enter_q.level <= '0;
+      enter_q.t <= '0;
+      enter_q.t_min <= leave_q.t_next;
+      enter_q.follow <= 1'b1;
+      enter_q.pending <= 1'b0;
+      enter_segment_q <= again_q;
+    end
   end
 
   `RDX_STREAM(a_hit, hit_valid_o, hit_ready_i, hit_o)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses the cell: candidate masks of the certified and the paper rule, the first candidate and the second.
 //
-// Certified  a cell is a candidate if its control points are mixed in sign (at the last level: its ends differ).
+// Certified  a cell is a candidate if its control points are mixed in sign, or possible_i (vector sums: a bound does not
+//            exclude a root); at the last level if its ends differ.
 // Paper      Case 2: cells whose ends differ in sign (10)(11). Case 1, no such cell: rdx_guess (8)(9).
 // Both       a value is positive if above zero; excluded cells are no candidates (paper rule: in Case 2).
 //
@@ -21,6 +22,7 @@ module rdx_select #(
     input  wire logic                 clk_i,
     input  wire logic signed [ W-1:0] cells_i   [J*D+1],
     input  wire logic        [ J-1:0] excluded_i,
+    input  wire logic        [ J-1:0] possible_i,
     input  wire logic                 last_i,
     input  wire logic                 paper_i,
     output logic                      found_o,
@@ -47,7 +49,7 @@ module rdx_select #(
     end
   end
 
-  wire  [J-1:0] certified = (last_i ? changes : mixed) & ~excluded_i;
+  wire  [J-1:0] certified = (last_i ? changes : mixed | possible_i) & ~excluded_i;
   wire  [J-1:0] crossed = changes & ~excluded_i;
   logic [J-1:0] mask;
 

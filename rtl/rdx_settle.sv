@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The end of a step: scales the control points, and says what becomes of the item.
+// The end of a step: scales the control points (values of a vector sum, D = 1, keep their scale), and says what becomes of the item.
 //
 // After the last digit the cell shrinks to its middle, the hit point: a hit if the cell's ends differ in sign and the
 // point is inside of the box. Without a hit or a cell the item goes on at its pending cell, or is done.
@@ -19,29 +19,43 @@ module rdx_settle #(
     localparam type control_t = `RDX_CONTROL_T(N1 * K),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic     clk_i,
-    input  wire control_t control_i,
-    input  wire segment_t segment_i,
-    input  wire logic     dead_i,
-    output control_t      control_o,
-    output segment_t      segment_o
+    input  wire logic                  clk_i,
+    input  wire control_t              control_i,
+    input  wire segment_t              segment_i,
+    input  wire logic                  dead_i,
+    input  wire rdx_pkg::coord_t [2:0] low_i,      // the box where D = 1
+    input  wire rdx_pkg::coord_t [2:0] high_i,
+    output control_t                   control_o,
+    output segment_t                   segment_o
 );
   import rdx_pkg::*;
 
   // ---- control points ----
   logic signed [W-1:0] b[D+1], scaled[D+1];
   always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
-  rdx_normalize #(
-      .WIn  (W),
-      .WOut (W),
-      .Count(D + 1),
-      .Limit(norm_limit(N1))
-  ) u_normalize (
-      .clk_i,
-      .en_i(1'b1),
-      .values_i(b),
-      .values_o(scaled)
-  );
+  if (D > 1) begin : gen_scale
+    rdx_normalize #(
+        .WIn  (W),
+        .WOut (W),
+        .Count(D + 1),
+        .Limit(norm_limit(N1))
+    ) u_normalize (
+        .clk_i,
+        .en_i(1'b1),
+        .values_i(b),
+        .values_o(scaled)
+    );
+  end else begin : gen_wait
+    rdx_delay #(
+        .T(logic signed [W-1:0]),
+        .Count(D + 1),
+        .Depth(NormalizeLatency)
+    ) u_wait (
+        .clk_i,
+        .data_i(b),
+        .data_o(scaled)
+    );
+  end
 
   // ---- first clock: the middle of the cell, and whether it holds a sign change ----
   ends_t middle;
@@ -97,10 +111,13 @@ module rdx_settle #(
   logic point_outside;
   always_comb for (int unsigned axis = 0; axis < 3; axis++) point[axis] = '{default: ends_q.start[axis]};
   rdx_outside #(
-      .J(1)
+      .J(1),
+      .Faces(D == 1)
   ) u_point (
       .boundaries_i(point),
       .box_i(control_q.box),
+      .low_i,
+      .high_i,
       .outside_o(point_outside)
   );
 

@@ -6,7 +6,8 @@
 //            the ends have met in the hit point), Again (nothing found here, a cell is pending) or Done. The control
 //            part of others passes unchanged, and so do the ends of a Hit, which are equal.
 // Rounding   half up in each average; normalising is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
-// Timing     latency rdx_pkg::step_latency(N1, HalveStages, Rules) clocks, one item a clock; no stall.
+// Timing     latency rdx_pkg::step_latency clocks, one item a clock; no stall.
+//            D = 1: one item every ceil((J-1)/Lanes) clocks, where phase_i = 0
 //            Without reset: the status of an item comes from the ring, which resets its own.
 // Error      docs/method.md, "Rounding"
 // Model      model/raydix/step.py
@@ -20,21 +21,25 @@ module rdx_step #(
     parameter int unsigned D = 4,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned HalveStages = (D + 1) / 2,
+    parameter int unsigned Lanes = (1 << N1) - 1,
+    parameter bit General = 1'b0,
     localparam int unsigned N = N1 * K,
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic     clk_i,
-    input  wire control_t control_i,
-    input  wire segment_t segment_i,
-    output control_t      control_o,
-    output segment_t      segment_o
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire logic           [3:0] phase_i,
+    input  wire rdx_pkg::form_t       form_i,
+    input  wire control_t             control_i,
+    input  wire segment_t             segment_i,
+    output control_t                  control_o,
+    output segment_t                  segment_o
 );
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
 
   localparam int unsigned J = 1 << N1;
-  localparam int unsigned CellsLatency = N1 * HalveStages;
   localparam int unsigned SelectLatency = select_latency(N1, Rules);
 
   if (K < 1 || N > 32) begin : gen_illegal_k
@@ -44,54 +49,54 @@ module rdx_step #(
     $fatal(1, "rdx_step: W = %0d; allowed: 16 to 48", W);
   end
 
-  // ---- cells: control points, and what is carried linearly, by the same averages ----
-  logic signed [W-1:0] b[D+1], cells[J*D+1], cells_q[J*D+1];
-  always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
-  rdx_cells #(
-      .W(W),
-      .D(D),
-      .N1(N1),
-      .HalveStages(HalveStages)
-  ) u_cells (
-      .clk_i,
-      .b_i(b),
-      .cells_o(cells)
-  );
-  rdx_delay #(
-      .T(logic signed [W-1:0]),
-      .Count(J * D + 1),
-      .Depth(SelectLatency)
-  ) u_cells_q (
-      .clk_i,
-      .data_i(cells),
-      .data_o(cells_q)
-  );
-
-  coord_t coords[3][J+1];
+  // ---- cells: control points by halving, or the indicator at the boundaries by evaluating ----
+  logic signed [W-1:0] cells[J*D+1];
+  logic [J-1:0] outside, possible;
   logic [N1-1:0] pick, next;
-  segment_t cell_d, cell_q;
-  rdx_carry #(
-      .N1(N1),
-      .HalveStages(HalveStages),
-      .Wait(SelectLatency)
-  ) u_carry (
-      .clk_i,
-      .ends_i  (segment_i.ends),
-      .coords_o(coords),
-      .pick_i  (pick),
-      .cell_o  (cell_d.ends)
-  );
-
-  control_t control[1], split[1], chosen[1];  // as it came, when the cells are there, and when the choice is
-  assign control[0] = control_i;
-  rdx_delay #(
-      .T(control_t),
-      .Depth(CellsLatency)
-  ) u_split (
-      .clk_i,
-      .data_i(control),
-      .data_o(split)
-  );
+  segment_t cell_q;
+  control_t split[1], chosen[1];  // when the cells are there, and when the choice is
+  if (D > 1) begin : gen_split
+    rdx_split #(
+        .N1(N1),
+        .K(K),
+        .W(W),
+        .D(D),
+        .HalveStages(HalveStages),
+        .Wait(SelectLatency)
+    ) u_split (
+        .clk_i,
+        .control_i,
+        .segment_i,
+        .pick_i(pick),
+        .control_o(split[0]),
+        .cells_o(cells),
+        .outside_o(outside),
+        .cell_o(cell_q)
+    );
+    assign possible = '0;
+    wire unused = &{1'b0, rst_ni, phase_i};
+  end else begin : gen_sample
+    rdx_sample #(
+        .N1(N1),
+        .K(K),
+        .Lanes(Lanes),
+        .General(General),
+        .Wait(SelectLatency)
+    ) u_sample (
+        .clk_i,
+        .rst_ni,
+        .phase_i,
+        .form_i,
+        .control_i,
+        .segment_i,
+        .pick_i(pick),
+        .control_o(split[0]),
+        .cells_o(cells),
+        .outside_o(outside),
+        .possible_o(possible),
+        .cell_o(cell_q)
+    );
+  end
   rdx_delay #(
       .T(control_t),
       .Depth(SelectLatency)
@@ -110,17 +115,16 @@ module rdx_step #(
     return follow ? digit : '0;
   endfunction
 
-  wire  [N1-1:0] first = first_cell(split[0].level, split[0].t_min, split[0].follow);
-  wire  [N1-1:0] chosen_first = first_cell(chosen[0].level, chosen[0].t_min, chosen[0].follow);
-  logic [ J-1:0] outside;
-  rdx_outside #(
-      .J(J)
-  ) u_outside (
-      .boundaries_i(coords),
-      .box_i(split[0].box),
-      .outside_o(outside)
+  logic [N1-1:0] first[1], chosen_first[1];
+  assign first[0] = first_cell(split[0].level, split[0].t_min, split[0].follow);
+  rdx_delay #(
+      .T(logic [N1-1:0]),
+      .Depth(SelectLatency)
+  ) u_first (
+      .clk_i,
+      .data_i(first),
+      .data_o(chosen_first)
   );
-
   logic found, more;
   rdx_select #(
       .W(W),
@@ -130,7 +134,8 @@ module rdx_step #(
   ) u_select (
       .clk_i,
       .cells_i(cells),
-      .excluded_i(outside | ~({J{1'b1}} << first)),
+      .excluded_i(outside | ~({J{1'b1}} << first[0])),
+      .possible_i(possible),
       .last_i(split[0].level == 5'(K - 1)),
       .paper_i(split[0].paper),
       .found_o(found),
@@ -140,34 +145,33 @@ module rdx_step #(
   );
 
   // ---- pick: the chosen cell becomes the item's, its number the next digits of t ----
-  control_t picked_d, picked_q;
-  logic dead_q;
-  always_comb begin
-    for (int unsigned i = 0; i <= D; i++) cell_d.b[i] = cells_q[32'(pick)*D+i];
-
-    picked_d = chosen[0];
-    if (chosen[0].status == Run) begin
-      picked_d.steps = chosen[0].steps + 1'b1;
-      if (found) begin
-        picked_d.follow = chosen[0].follow && pick == chosen_first;
-        if (more) begin
-          picked_d.pending = 1'b1;
-          picked_d.t_next  = chosen[0].t;
-        end
-        for (int unsigned k = 0; k < K; k++) begin
-          if (chosen[0].level == 5'(k)) begin
-            picked_d.t[N1*(K-1-k)+:N1] = pick;
-            if (more) picked_d.t_next[N1*(K-1-k)+:N1] = next;
-          end
-        end
-      end
-    end
-  end
-  always_ff @(posedge clk_i) begin
-    picked_q <= picked_d;
-    cell_q   <= cell_d;
-    dead_q   <= !found;
-  end
+  localparam type picked_t = struct packed {
+    logic     dead;     // no cell was found
+    control_t control;
+  };
+  control_t picked_d;
+  picked_t picked[1], picked_q[1];
+  assign picked[0] = '{dead: !found, control: picked_d};
+  rdx_pick #(
+      .N1(N1),
+      .K (K)
+  ) u_pick (
+      .control_i(chosen[0]),
+      .first_i  (chosen_first[0]),
+      .found_i  (found),
+      .more_i   (more),
+      .pick_i   (pick),
+      .next_i   (next),
+      .control_o(picked_d)
+  );
+  rdx_delay #(
+      .T(picked_t),
+      .Depth(pick_latency(N1, D))
+  ) u_picked (
+      .clk_i,
+      .data_i(picked),
+      .data_o(picked_q)
+  );
 
   rdx_settle #(
       .N1(N1),
@@ -176,12 +180,16 @@ module rdx_step #(
       .D (D)
   ) u_settle (
       .clk_i,
-      .control_i(picked_q),
+      .control_i(picked_q[0].control),
       .segment_i(cell_q),
-      .dead_i(dead_q),
+      .dead_i(picked_q[0].dead),
+      .low_i(form_i.low),
+      .high_i(form_i.high),
       .control_o,
       .segment_o
   );
+
+  wire unused_form = &{1'b0, form_i};
 
 endmodule
 

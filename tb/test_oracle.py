@@ -295,10 +295,10 @@ def test_frame_takes_the_nearest_and_the_lower_number():
     assert frame.surface[0, 0] == 1 and frame.depth[0, 0] == pytest.approx(4.5, rel=1e-14)
 
 
-def test_spiral_is_refused():
+def test_spiral_is_not_a_polynomial():
     """A surface without a polynomial is named, not guessed."""
     with pytest.raises(oracle.NotPolynomial, match="spiral"):
-        oracle.ideal_hits(scene(surface("spiral", R=0.6, r=0.1)), 0)
+        oracle.quadrics(surface("spiral", R=0.6, r=0.1))
 
 
 def test_scene_file():

@@ -27,10 +27,14 @@ ANY = "a number from -1e9 to 1e9"
 LENGTH = "a number from 1e-9 to 1e9"
 TYPES = (
     "plane, sphere, ellipsoid, cylinder, cone, paraboloid, hyperbolic_paraboloid, hyperboloid_one_sheet, "
-    "hyperboloid_two_sheet, quadric, torus, cyclide, quartic"
+    "hyperboloid_two_sheet, quadric, torus, cyclide, quartic, spiral"
 )
 REGULAR = "a matrix that is not singular (|det| >= 1e-6 * product of its row lengths)"
 S0 = "surface[0] (torus)"
+SPIRAL = "[[surface]]\ntype = 'spiral'\n"
+HELIX = SPIRAL + "R = 0.6\nr = 0.1\npitch = 0.35\nturns = 3.0\n"
+S1 = "surface[0] (spiral)"
+TURNS = "a number above 0 (from 1e-3), up to 100"
 
 
 def write(folder: Path, text: str | bytes) -> Path:
@@ -61,8 +65,7 @@ BAD = {
                        "camera, light, background, surface"),
     "unknown type": (surface("type = 'torsu'"), "surface[0].type", "unknown type 'torsu'",
                      TYPES + " (did you mean torus?)"),
-    "type without a form yet": (surface("type = 'spiral'"), "surface[0].type", "unknown type 'spiral'",
-                                TYPES),
+    "type like no other": (surface("type = 'cube'"), "surface[0].type", "unknown type 'cube'", TYPES),
     "type not a string": (surface("type = ['torus']"), "surface[0].type", "unknown type ['torus']", TYPES),
     "no type": (CAMERA + TORUS + "[[surface]]\nR = 1\n", "surface[1].type", "nothing", TYPES),
     # missing
@@ -128,6 +131,34 @@ BAD = {
     "quartic constant": (surface(f"type = 'quartic'\nQ1 = {ZEROS}\nQ2 = {ZEROS}\nQ3 = {ZEROS}\n"),
                          "surface[0] (quartic).Q1", "Q1*Q2 + Q3 that is constant",
                          "Q1*Q2 + Q3 that depends on x, y or z"),
+    "spiral without pitch": (CAMERA + HELIX.replace("pitch = 0.35\n", ""), S1 + ".pitch", "nothing", ANY),
+    "spiral without turns": (CAMERA + HELIX.replace("turns = 3.0\n", ""), S1 + ".turns", "nothing", TURNS),
+    "unknown spiral key": (CAMERA + HELIX + "R_grow = 1\n", S1 + ".R_grow", "unknown key",
+                           "center, rotation, axis, angle, scale, clip, color, opacity, type, R, r, pitch, turns, "
+                           "R_growth, r_growth (did you mean R_growth?)"),
+    "turns zero": (CAMERA + HELIX.replace("3.0", "0"), S1 + ".turns", "0", TURNS),
+    "too many turns": (CAMERA + HELIX.replace("3.0", "100.5"), S1 + ".turns", "100.5", TURNS),
+    "tube reaches the axis": (CAMERA + HELIX.replace("r = 0.1", "r = 0.596"), S1 + ".r", "0.596",
+                              "at most 0.99 * R = 0.594"),
+    "tube runs out": (CAMERA + HELIX + "r_growth = -0.0625\n", S1 + ".r_growth", "-0.0625, r is -0.0875 at the far end",
+                      "r at least 1e-9 at both ends"),
+    "tube grows to the axis": (CAMERA + HELIX + "R_growth = -0.03125\nr_growth = 0.135\n", S1 + ".r_growth",
+                               "0.135, r is 0.505 and R is 0.50625 at the far end",
+                               "r at most 0.99 * R at both ends"),
+    "spiral shrinks to the axis": (CAMERA + HELIX + "R_growth = -0.1875\nr_growth = 0.015625\n", S1 + ".R_growth",
+                                   "-0.1875, r is 0.146875 and R is 0.0375 at the far end",
+                                   "r at most 0.99 * R at both ends"),
+    "spiral runs through the axis": (CAMERA + HELIX + "R_growth = -0.25\n", S1 + ".R_growth",
+                                     "-0.25, r is 0.1 and R is -0.15 at the far end",
+                                     "r at most 0.99 * R at both ends"),
+    "turns swallow others": (CAMERA + HELIX.replace("0.35", "-0.4") + "R_growth = 0.3\nr_growth = 0.46\n",
+                             S1 + ".r_growth", "0.46",
+                             "a magnitude of at most 0.9 * hypot(R_growth, pitch) = 0.45, as turns is above 1"),
+    "turns swallowed by others": (CAMERA + HELIX.replace("0.35", "0").replace("0.1", "0.5") + "r_growth = -0.125\n",
+                                  S1 + ".r_growth", "-0.125",
+                                  "a magnitude of at most 0.9 * hypot(R_growth, pitch) = 0.0, as turns is above 1"),
+    "spiral too large": (CAMERA + HELIX.replace("0.35", "4e8"), S1 + ".clip", "nothing",
+                         "this surface reaches farther than 1e9: give clip = [[x0,y0,z0],[x1,y1,z1]]"),
     "scale zero": (CAMERA + TORUS + "scale = 0.0\n", S0 + ".scale", "0.0", LENGTH),
     "color above 1": (CAMERA + TORUS + "color = [0, 0, 1.5]\n", S0 + ".color[2]", "1.5",
                       "a number from 0 to 1"),
@@ -291,6 +322,32 @@ def test_limits_are_allowed(tmp_path):
     assert len(load_scene(write(tmp_path, CAMERA + 64 * TORUS)).surfaces) == 64
 
 
+def test_limits_of_a_spiral_are_allowed(tmp_path):
+    """The ends of the spiral's ranges are accepted; up to one turn the tube may grow as fast as it likes."""
+    bodies = (
+        "R = 1\nr = 0.99\npitch = 0\nturns = 1e-3\n",
+        "R = 1\nr = 1e-9\npitch = -1e7\nturns = 100\n",
+        "R = 1\nr = 0.5\npitch = 0\nturns = 1\nr_growth = 0.49\n",
+        "R = 1\nr = 0.5\npitch = 0\nturns = 1\nr_growth = -0.499999999\n",
+        "R = 1\nr = 0.5\npitch = -0.4\nturns = 2\nR_growth = 0.3\nr_growth = 0.2\n",
+        "R = 3\nr = 0.5\npitch = 0.4\nturns = 1.001\nR_growth = -0.3\nr_growth = 0.45\n",
+        "R = 1\nr = 0.5\npitch = 0\nturns = 2\n",
+    )
+    loaded = load_scene(write(tmp_path, CAMERA + "".join(SPIRAL + body for body in bodies)))
+    assert len(loaded.surfaces) == len(bodies)
+    assert (loaded.surfaces[-1].R_growth, loaded.surfaces[-1].r_growth) == (0, 0)
+
+
+def test_far_end_is_judged_without_rounding(tmp_path):
+    """r + r_growth * turns is exact: 9.35e-10 is refused though float64 makes it 1.9e-9, 3.7e-9 is accepted for 0."""
+    text = SPIRAL + "R = 1e8\nr = 1e7\npitch = 0\nturns = 0.1\nr_growth = -99999999.99999999\n"
+    line = refusal(write(tmp_path, CAMERA + text))
+    assert "r_growth: found -99999999.99999999, r is 9.35005e-10 at the far end" in line
+    text = SPIRAL + "R = 5e8\nr = 1e8\npitch = 1e8\nturns = 3\nr_growth = -33333333.333333332\n"
+    assert 1e8 - 33333333.333333332 * 3 == 0
+    load_scene(write(tmp_path, CAMERA + text))
+
+
 def test_size_override(tmp_path):
     """Width and height given to load_scene replace the camera's before they are checked."""
     path = write(tmp_path, CAMERA + "width = 5000\n" + TORUS)
@@ -339,6 +396,7 @@ VALID = (
     + "color = [1, 0, 0.5]\n"
     + PLANE + BOX + "[[surface]]\ntype = 'quadric'\ncoefficients = [1, 1.2, 1.5, 0.8, 0, 0, 0, 0, 0, -1]\n"
     + "[[surface]]\ntype = 'cyclide'\na = 1\nb = 0.9\nd = 0.5\nrotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
+    + HELIX + "R_growth = 0.1\nr_growth = 0.05\n"
 )  # fmt: skip
 VALUES = ["nan", "-inf", "0", "-1", "1e300", "1e-300", "true", "''", "[]", "{}", "[[0]]", "12:00:00",
           "0x" + 999 * "f", "'torus'", "'plane'", "[0, 0, 0]", "1.5", "99999", "", "[1, 2"]  # fmt: skip
@@ -370,7 +428,7 @@ def mutations(draw):
 
 def test_scene_to_mutate_is_valid(tmp_path):
     """The mutations start from a scene that loads."""
-    assert len(load_scene(write(tmp_path, VALID)).surfaces) == 4
+    assert len(load_scene(write(tmp_path, VALID)).surfaces) == 5
 
 
 @settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])

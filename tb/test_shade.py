@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """From hits to colours: order, ties and transparency against values worked out by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from raydix.config import Config
 from raydix.render import render_golden
-from raydix.scene import load_scene
+from raydix.scene import Spiral, load_scene
+from raydix.shade import compose
 
 HEAD = """
 [camera]
@@ -125,6 +128,20 @@ def test_equal_depth_goes_to_the_lower_number(centre):
         linear, surface, _, _ = centre(sphere(1.0, colors[0]), sphere(1.0, colors[1]))
         assert surface == 0
         assert np.allclose(linear, colors[0], atol=1e-5)
+
+
+def test_normals_of_a_spiral(tmp_path):
+    """One flat turn of even thickness is the torus: the torus' hits, shaded as the spiral's, give its picture."""
+    place = "rotation = [[0.8, 0.0, 0.6], [0.0, 2.0, 0.0], [-0.6, 0.0, 0.8]]\nopacity = 0.5\n"
+    path = tmp_path / "scene.toml"
+    path.write_text(HEAD.replace("= 5\n", "= 48\n") + '[[surface]]\ntype = "torus"\nR = 0.25\nr = 0.1\n' + place)
+    scene = load_scene(path)
+    torus = render_golden(scene, Config())
+    keys = scene.surfaces[0].model_dump() | {"type": "spiral", "pitch": 0.0, "turns": 1.0}
+    spiral = compose(replace(scene, surfaces=(Spiral.model_validate(keys),)), torus.hits, Config())
+    assert (torus.surface == 0).sum() > 300
+    assert np.allclose(spiral.normal, torus.normal, atol=1e-5)
+    assert np.allclose(spiral.linear, torus.linear, atol=1e-5)
 
 
 def test_miss_is_background(centre):

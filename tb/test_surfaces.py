@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Implicit forms, bounding boxes and gradients of the surface types."""
+"""Implicit forms, bounding boxes and gradients of the surface types; the spiral's indicator."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from raydix import scene, surfaces
+from raydix import scene, spiral, surfaces
 
 CLIP = ((-2.0, -2.0, -2.0), (2.0, 2.0, 2.0))
 COEFFICIENTS = (1.0, 1.2, 1.5, 0.8, -0.6, -0.9, 0.2, -0.1, 0.3, -1.3)
@@ -253,3 +253,201 @@ def test_gradient_is_the_derivative(name):
         step = h * np.eye(3)[i]
         slope = (equation(*np.moveaxis(points + step, -1, 0)) - equation(*np.moveaxis(points - step, -1, 0))) / (2 * h)
         np.testing.assert_allclose(got[..., i], slope, rtol=1e-6, atol=1e-6)
+
+
+@cases
+def test_normal_direction_is_the_gradient(name):
+    """For an algebraic type the direction of the normal is the gradient of its form."""
+    surface = CASES[name][0]
+    points = np.random.default_rng(5).uniform(-1.5, 1.5, (10, 20, 3))
+    expected = surfaces.gradient(surfaces.form(surface), points)
+    np.testing.assert_array_equal(surfaces.normal_direction(surface, points), expected)
+
+
+# ---- Spiral ------------------------------------------------------------------------------------------------
+
+
+def tube(R, r, pitch, turns, R_growth=0.0, r_growth=0.0):
+    keys = {"R": R, "r": r, "pitch": pitch, "turns": turns, "R_growth": R_growth, "r_growth": r_growth}
+    return scene.Spiral(type="spiral", **keys)
+
+
+SPIRALS = {
+    "helix": tube(0.6, 0.1, 0.35, 3.0),
+    "helix, left-handed": tube(0.6, 0.15, -0.25, 2.3),
+    "helix, fused": tube(0.6, 0.3, 0.2, 2.6),
+    "shell": tube(0.09, 0.08, -0.22, 3.7, 0.18, 0.125),
+    "flat": tube(0.2, 0.05, 0.0, 4.0, 0.18),
+    "shrinking": tube(0.9, 0.2, 0.1, 2.5, -0.2, -0.05),
+    "counter-growing": tube(0.5, 0.3, 0.3, 1.9, 0.2, -0.1),
+    "one turn": tube(0.7, 0.2, 0.5, 1.0),
+    "ring": tube(1.0, 0.4, 0.0, 1.0),
+    "horseshoe": tube(0.6, 0.1, 0.1, 0.8, 0.2, 0.1),
+    "half": tube(0.6, 0.1, 0.1, 0.6),
+    "arc": tube(0.6, 0.1, -0.4, 0.35, -0.5, 0.2),
+    "piece": tube(0.6, 0.1, 0.3, 0.1, 1.5, 0.3),
+}
+spirals = pytest.mark.parametrize("name", SPIRALS)
+
+
+def curve(s: scene.Spiral, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors (n, 3) from the axis towards the centre curve, and its points (n, 3), after t turns (n)."""
+    radial = np.stack([np.cos(2 * np.pi * t), np.sin(2 * np.pi * t), 0 * t], axis=-1)
+    return radial, (s.R + s.R_growth * t)[:, None] * radial + s.pitch * t[:, None] * np.array([0, 0, 1])
+
+
+def skin(s: scene.Spiral, n: int = 200_000) -> np.ndarray:
+    """Random points (2n, 3) of the rims of all disks and of the surfaces of both end balls: the solid's and within."""
+    rng = np.random.default_rng(6)
+    t = np.concatenate([[0, s.turns], rng.uniform(0, s.turns, n - 2)])
+    radial, centre = curve(s, t)
+    angle = rng.uniform(0, 2 * np.pi, n)[:, None]
+    rims = centre + (s.r + s.r_growth * t)[:, None] * (np.cos(angle) * radial + np.sin(angle) * np.array([0, 0, 1]))
+    t = np.where(rng.uniform(size=n) < 0.5, 0, s.turns)
+    direction = rng.normal(size=(n, 3))
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    return np.concatenate([rims, curve(s, t)[1] + (s.r + s.r_growth * t)[:, None] * direction])
+
+
+def searched_value(s: scene.Spiral, point: np.ndarray) -> float:
+    """The indicator at one point: follow the curve, stop where its half plane sweeps over the point."""
+    t = np.linspace(0, s.turns, 20_001)
+    radial, centre = curve(s, t)
+    side = radial[:, 0] * point[1] - radial[:, 1] * point[0]
+    i = np.nonzero((side[:-1] > 0) & (side[1:] <= 0))[0]
+    passed = t[i] + side[i] / (side[i] - side[i + 1]) * (t[1] - t[0])
+    t = np.concatenate([passed, [0, s.turns]])
+    return float((np.linalg.norm(point - curve(s, t)[1], axis=1) - s.r - s.r_growth * t).min())
+
+
+def around(s: scene.Spiral, shape: tuple[int, ...]) -> np.ndarray:
+    """Random points (*shape, 3) of a box half as large again as the spiral's."""
+    low, high = box_of(s)
+    return np.random.default_rng(7).uniform(low - (high - low) / 4, high + (high - low) / 4, (*shape, 3))
+
+
+@spirals
+def test_spiral_value_is_the_distance_to_disks_and_balls(name):
+    """The indicator equals that of a search along the centre curve; any leading shape."""
+    s = SPIRALS[name]
+    points = around(s, (4, 50))
+    got = spiral.value(s, points)
+    assert got.shape == (4, 50)
+    expected = [searched_value(s, p) for p in points.reshape(-1, 3)]
+    np.testing.assert_allclose(got.ravel(), expected, rtol=0, atol=1e-9)
+    assert spiral.value(s, points[0, 0]) == got[0, 0]
+
+
+def test_spiral_of_one_flat_turn_is_a_torus():
+    """Without pitch and growth one turn is the torus, whose distance is known; its gradient has length 1."""
+    points = around(SPIRALS["ring"], (1000,))
+    rho = np.hypot(points[:, 0], points[:, 1])
+    np.testing.assert_allclose(spiral.value(SPIRALS["ring"], points), np.hypot(rho - 1, points[:, 2]) - 0.4, atol=1e-14)
+    gradient = spiral.gradient(SPIRALS["ring"], points)
+    np.testing.assert_allclose(np.linalg.norm(gradient, axis=1), 1, atol=1e-14)
+
+
+@spirals
+def test_spiral_holds_its_disks_and_balls(name):
+    """No point of a rim or of an end ball is outside; around the box of the spiral everything is."""
+    s = SPIRALS[name]
+    assert spiral.value(s, skin(s)).max() < 1e-12
+    low, high = box_of(s)
+    direction = np.random.default_rng(3).normal(size=(10_000, 3))
+    direction /= np.abs(direction).max(axis=1, keepdims=True)
+    assert (spiral.value(s, (low + high) / 2 + 1.001 * direction * (high - low) / 2) > 0).all()
+
+
+@spirals
+def test_spiral_box_holds_the_surface(name):
+    """Every point of the rims and end balls lies in the box, whose faces are touched; if R or r grows, those of z.
+
+    From one turn on, the sides are as far from the axis as the farthest point.
+    """
+    s = SPIRALS[name]
+    low, high = box_of(s)
+    points = skin(s)
+    assert (points >= low - 1e-12).all()
+    assert (points <= high + 1e-12).all()
+    gap = np.array([points.min(axis=0) - low, high - points.max(axis=0)]) / (high - low)
+    grows = s.R_growth or s.r_growth
+    assert gap[:, 2].max() < 0.01
+    assert gap.max() < (0.3 if grows else 0.01)
+    if s.turns >= 1:
+        reach = np.hypot(points[:, 0], points[:, 1]).max()
+        np.testing.assert_allclose([-low[:2], high[:2]], reach, rtol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("turns", "low", "high"),
+    [
+        (0.125, (0.5**0.5 - 0.1, -0.1), (1.1, 0.5**0.5 + 0.1)),
+        (0.25, (-0.1, -0.1), (1.1, 1.1)),
+        (0.375, (-(0.5**0.5) - 0.1, -0.1), (1.1, 1.1)),
+        (0.5, (-1.1, -0.1), (1.1, 1.1)),
+        (0.75, (-1.1, -1.1), (1.1, 1.1)),
+        (0.7499, (-1.1, -np.cos(2 * np.pi * 0.0001) - 0.1), (1.1, 1.1)),
+        (1.0, (-1.1, -1.1), (1.1, 1.1)),
+    ],
+)
+def test_spiral_box_of_a_part_of_a_turn(turns, low, high):
+    """Worked out by hand for R = 1, r = 0.1 without pitch."""
+    got = box_of(tube(1.0, 0.1, 0.0, turns))
+    np.testing.assert_allclose(got, [(*low, -0.1), (*high, 0.1)], atol=1e-15)
+
+
+def test_spiral_box_keeps_the_binary_values():
+    """The box is computed from the exact numbers of the scene, to 256 bits."""
+    with mp.workprec(256):
+        exact = mpf(0.1) * mpf(3) + mpf(0.1)
+        assert surfaces.bounding_box(tube(0.6, 0.1, 0.1, 3.0))[1][2] == exact
+
+
+@spirals
+def test_spiral_gradient_is_the_derivative(name):
+    """The gradient equals central differences of the indicator wherever that is smooth, for any leading shape."""
+    s = SPIRALS[name]
+    points = around(s, (20, 50))
+    got = spiral.gradient(s, points)
+    assert got.shape == points.shape
+    h = 1e-5
+    steps = [h * np.eye(3)[i] for i in range(3)]
+    middle = spiral.value(s, points)
+    before, after = (np.stack([spiral.value(s, points + sign * step) for step in steps], -1) for sign in (-1, 1))
+    smooth = (np.abs(before + after - 2 * middle[..., None]) < 1e-7).all(axis=-1)
+    assert smooth.mean() > 0.98
+    np.testing.assert_allclose(got[smooth], ((after - before) / (2 * h))[smooth], rtol=0, atol=1e-5)
+
+
+@spirals
+def test_spiral_normal_points_out_of_the_surface(name):
+    """A small step along the normal leaves the solid and one against it enters; on the surface it never vanishes."""
+    s = SPIRALS[name]
+    points = skin(s, 5000)
+    points = points[spiral.value(s, points) > -1e-12]
+    assert len(points) > 1000
+    normal = surfaces.normal_direction(s, points)
+    np.testing.assert_array_equal(normal, spiral.gradient(s, points))
+    step = 1e-6 * normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    assert (spiral.value(s, points + step) > 0).all()
+    assert (spiral.value(s, points - step) < 0).all()
+
+
+def test_spiral_gradient_where_it_has_none():
+    """0 on the axis and at the centres of disks and balls; no division by zero on the way."""
+    s = tube(0.5, 0.25, 1.0, 1.5)
+    points = np.array([[0, 0, 0.9], [0, 0.5, 0.25], [0.5, 0, 0], [0.5, 0, 1.0]])
+    points[1] = curve(s, np.array([0.25]))[1][0]
+    with np.errstate(all="raise", under="ignore"):
+        gradient = spiral.gradient(s, points)
+        spiral.gradient(s, np.zeros(3))
+    assert np.abs(gradient[[0, 2, 3]]).max() == 0
+    assert np.isfinite(gradient).all()
+
+
+def test_spiral_seam():
+    """Half plane 0 belongs to the turn that begins there, also for an azimuth that rounds to a whole turn."""
+    s = tube(0.5, 0.1, 0.25, 2.0)
+    for y in (0.0, -0.0, 1e-300, -1e-300, 1e-20, -1e-20):
+        points = np.array([[0.5, y, z] for z in (0.1, 0.25, 0.5)])
+        np.testing.assert_allclose(spiral.value(s, points), [0, -0.1, -0.1], atol=1e-12)

@@ -75,21 +75,21 @@ def trace_chords(quads: np.ndarray, quartic: bool, config: Config, roots: int = 
     t = np.full(count * roots, -1, np.int64)
     depth, point = np.zeros(count * roots, np.int64), np.zeros((count * roots, 3), np.int64)
     steps = np.zeros(count, np.int64)
-    _, item, first, _, cells, nodes = scratch(config)
+    _, item, first, _, work = scratch(config, config.degree)
     first[C : C + 3], first[C + 3 : C + 6] = 0, (1 << COORD_FRAC) - 1
     first[DEPTH], first[DEPTH + 1] = 0, (1 << (DEPTH_WIDTH - 1)) - 1
     item[PAPER] = config.rule == "paper"
     parameters = config.n1, config.steps, config.width, config.degree
-    _run(quads, quartic, roots, *parameters, item, first, cells, nodes, t, depth, point, steps)
+    _run(quads, quartic, roots, *parameters, item, first, work, t, depth, point, steps)
     return t.reshape(count, roots), steps
 
 
 @kernel
-def _run(quads, quartic, roots, n1, count, width, degree, item, first, cells, nodes, t, depth, point, steps):
+def _run(quads, quartic, roots, n1, count, width, degree, item, first, work, t, depth, point, steps):
     for i in range(len(quads)):
         product(quads[i], quartic, first, B, width, degree)
         item[ROOTS] = roots
-        trace(item, first, cells, nodes, n1, count, width, degree, t, depth, point, i * roots)
+        trace(item, first, quads[i], work, n1, count, width, degree, 0, t, depth, point, i * roots)
         steps[i] = item[STEPS]
 
 

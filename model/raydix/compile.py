@@ -11,6 +11,7 @@ from typing import NamedTuple
 import mpmath as mp
 import numpy as np
 
+from .compile_spiral import Oversize, needs_general, spiral_words
 from .config import Config
 from .formats import (
     BOX_WIDTH,
@@ -20,7 +21,7 @@ from .formats import (
     PRODUCT_DROP,
     QUAD_ACC_WIDTH,
 )
-from .raster import BOX_AT, PAPER_AT, QUARTIC_AT, ROOTS_AT
+from .raster import BOX_AT, PAPER_AT, QUARTIC_AT, ROOTS_AT, VECTOR_AT
 from .scene import Scene, SceneError
 from .surfaces import bounding_box, form
 
@@ -51,6 +52,11 @@ class CompiledSurface(NamedTuple):
     roots: int
     origin: tuple[float, float, float]
     unit: tuple[float, float, float]
+
+    @property
+    def is_vector_sum(self) -> bool:
+        """Whether the vector-sum ring intersects it, not the algebraic one."""
+        return bool(self.words[0] >> VECTOR_AT & 1)
 
 
 class CompiledFrame(NamedTuple):
@@ -264,11 +270,12 @@ def _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows
     return words, box, tuple(origin), tuple(unit)
 
 
-def roots_wanted(surface, quartic: bool, config: Config) -> int:
-    """Roots looked for on a ray: one if opaque, else all; the paper's bound is three."""
+def roots_wanted(surface, config: Config) -> int:
+    """Roots looked for on a ray: one if opaque, else all, of a spiral the first four; the paper's bound is three."""
     if surface.opacity == 1:
         return 1
-    return min(4 if quartic else 2, 3 if config.rule == "paper" else 4)
+    most = 4 if surface.type == "spiral" or form(surface).q1 is not None else 2
+    return min(most, 3 if config.rule == "paper" else 4)
 
 
 def compile_scene(scene: Scene, config: Config) -> CompiledFrame:
@@ -312,13 +319,6 @@ def _view(camera, surface):
 
 def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix, low, high, cut, rect, near, far):
     """The descriptor of one surface in view."""
-    shape = form(surface)
-    quartic = shape.q1 is not None
-    if quartic and config.degree < 4:
-        raise SceneError(
-            f"{scene.path}: surface[{index}].type: found '{surface.type}', a quartic; "
-            "allowed: surfaces of degree 1 and 2 in a configuration of degree 2"
-        )
     inverse = matrix**-1
     place = Placed(
         inverse * (camera.eye - _vector(surface.center)),
@@ -330,20 +330,53 @@ def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix
     a, b = camera.a(x0), camera.b(y0)
     h, e = ((place.at(z, a, b), z * camera.pixel * place.r, -z * camera.pixel * place.u) for z in (near, far))
     columns, rows = x1 - x0 + 1, y1 - y0 + 1
-    coordinates, box, origin, unit = _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows)
-    roots = roots_wanted(surface, quartic, config)
-    head = index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | quartic << QUARTIC_AT
-    for axis in range(3):
-        head |= box[axis] << (BOX_AT + axis * BOX_WIDTH)
+    make = _vector_sum if surface.type == "spiral" else _algebraic
+    flags, lanes, origin, unit = make(scene, config, index, surface, h, e, low, high, cut, columns, rows)
+    roots = roots_wanted(surface, config)
+    head = index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | flags
     depth = [int(mp.nint(z * depth_factor)) for z in (near, far)]
-    words = [head, x0 | y0 << 16 | x1 << 32 | y1 << 48, depth[0] | depth[1] << DEPTH_WIDTH, *coordinates]
-    words += _quadric_words(shape, h, e, columns, rows)
+    words = [head, x0 | y0 << 16 | x1 << 32 | y1 << 48, depth[0] | depth[1] << DEPTH_WIDTH, *lanes]
     if any(abs(w) >= 1 << 63 for w in words):
         raise SceneError(
             f"{scene.path}: surface[{index}] ({surface.type}): found sizes that lie too far apart for the configured "
             "words; allowed: coordinates, scale and camera distance nearer to each other"
         )
     return CompiledSurface(index, tuple(words), rect, float(near), float(far), roots, origin, unit)
+
+
+def _algebraic(scene, config, index, surface, h, e, low, high, cut, columns, rows):
+    """Header flags, words of all lanes, origin and unit of an algebraic surface."""
+    shape = form(surface)
+    quartic = shape.q1 is not None
+    if config.degree < 2 + 2 * quartic:
+        allowed = "surfaces of degree 1 and 2" if config.degree else "vector-sum surfaces"
+        raise SceneError(
+            f"{scene.path}: surface[{index}].type: found '{surface.type}'{', a quartic' if quartic else ''}; "
+            f"allowed: {allowed} in a configuration of degree {config.degree}"
+        )
+    coordinates, box, origin, unit = _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows)
+    flags = quartic << QUARTIC_AT
+    for axis in range(3):
+        flags |= box[axis] << (BOX_AT + axis * BOX_WIDTH)
+    return flags, [*coordinates, *_quadric_words(shape, h, e, columns, rows)], origin, unit
+
+
+def _vector_sum(scene, config, index, surface, h, e, low, high, cut, columns, rows):
+    """Header flags, words of the coordinate lanes and of the form, origin and unit of a vector-sum surface."""
+    needed = "general" if needs_general(surface) else "helix"
+    if config.vecsum not in (needed, "general"):
+        built = {"none": "algebraic surfaces", "helix": "spirals of one turn at least whose radii do not grow"}
+        raise SceneError(
+            f"{scene.path}: surface[{index}].type: found '{surface.type}' that needs vecsum = {needed}; "
+            f"allowed: {built[config.vecsum]} in a configuration of vecsum = {config.vecsum}"
+        )
+    try:
+        coordinates, words, origin, unit = spiral_words(surface, h, e, low, high, cut, columns, rows, config.n1)
+    except Oversize as error:
+        raise SceneError(
+            f"{scene.path}: surface[{index}] ({surface.type}): found {error}; allowed: sizes nearer to each other"
+        ) from None
+    return 1 << VECTOR_AT, [*coordinates, *words], origin, unit
 
 
 def descriptor_array(frame: CompiledFrame) -> np.ndarray:

@@ -4,6 +4,7 @@
 from dataclasses import dataclass, replace
 
 RULES = ("certified", "paper")
+VECSUMS = ("none", "helix", "general")
 
 
 class ConfigError(ValueError):
@@ -12,15 +13,19 @@ class ConfigError(ValueError):
 
 @dataclass(frozen=True)
 class Config:
-    """Parameters of the RTL (`n1, steps, width, degree, units, rules`) and the run-time `rule`.
+    """Parameters of the RTL and the run-time `rule`.
 
     n1     binary digits fixed per step, 1 to 4 (J = 2**n1 cells)
     steps  K, steps to a hit; n = n1*K <= 32 digits of t
     width  W, bits of a control point, 16 to 48
-    degree D, 4 (quartics too) or 2 (quadrics only)
-    units  U, step units in the ring, 1 to K
+    degree D, 4 (quartics too), 2 (quadrics only) or 0 (no algebraic surfaces)
+    units  U, step units in the algebraic ring, 1 to K
     rules  selection rules built in: "certified", "paper" or "both"
     rule   the rule used for this frame
+    vecsum  evaluators of vector-sum surfaces: "none", "helix" (spirals of one turn at least whose radii do not grow)
+           or "general" (every spiral)
+    lanes  evaluators in a step unit of the vector-sum ring, 1 to J-1; they share the J-1 new boundaries of a step
+    vector_units  step units in the vector-sum ring, 1 to K
 
     Raises :class:`ConfigError` with the parameter, what was found and what is allowed.
     """
@@ -32,19 +37,29 @@ class Config:
     units: int = 8
     rules: str = "both"
     rule: str = "certified"
+    vecsum: str = "none"
+    lanes: int | None = None  # J-1
+    vector_units: int = 1
 
     def __post_init__(self):
         def check(ok, name, allowed):
             if not ok:
                 raise ConfigError(f"{name}: found {getattr(self, name)!r}; allowed: {allowed}")
 
-        for name in ("n1", "steps", "width", "degree", "units"):
+        for name in ("n1", "steps", "width", "degree", "units", "vector_units"):
             check(isinstance(getattr(self, name), int), name, "an integer")
         check(1 <= self.n1 <= 4, "n1", "1 to 4")
+        check(self.lanes is None or isinstance(self.lanes, int), "lanes", "an integer")
+        if self.lanes is None:
+            object.__setattr__(self, "lanes", self.cells - 1)
         check(1 <= self.steps <= 32 // self.n1, "steps", f"1 to {32 // self.n1} (n1*steps is at most 32)")
         check(16 <= self.width <= 48, "width", "16 to 48")
-        check(self.degree in (2, 4), "degree", "2 (quadrics) or 4 (quartics too)")
-        check(1 <= self.units <= self.steps, "units", f"1 to {self.steps} (the number of steps)")
+        check(self.degree in (0, 2, 4), "degree", "4 (quartics too), 2 (quadrics) or 0 (no algebraic surfaces)")
+        check(self.vecsum in VECSUMS, "vecsum", "none, helix or general")
+        check(self.degree or self.vecsum != "none", "degree", "2 or 4 unless vecsum is helix or general")
+        check(1 <= self.lanes < self.cells, "lanes", f"1 to {self.cells - 1} (J - 1)")
+        for name in ("units", "vector_units"):
+            check(1 <= getattr(self, name) <= self.steps, name, f"1 to {self.steps} (the number of steps)")
         check(self.rules in (*RULES, "both"), "rules", "certified, paper or both")
         check(self.rule in RULES, "rule", "certified or paper")
         check(self.rules in ("both", self.rule), "rule", f"{self.rules} (the rules built in)")
@@ -60,5 +75,7 @@ class Config:
         return 1 << self.n1
 
     def with_(self, **changes) -> "Config":
-        """A copy with other values."""
+        """A copy with other values; with another `n1` all lanes, unless `lanes` is given."""
+        if "n1" in changes:
+            changes = {"lanes": None, **changes}
         return replace(self, **changes)

@@ -44,9 +44,64 @@ COORD_LANES = 6
 HEADER_WORDS = 3
 QUADRIC_WORDS = HEADER_WORDS + 3 * COORD_LANES + 18
 QUARTIC_WORDS = QUADRIC_WORDS + 36
+VECTOR_FRAC = 33
+VECTOR_WIDTH = 5 + VECTOR_FRAC
+ANGLE_WIDTH = 32
+TURN_FRAC = 28
+TURN_WIDTH = 8 + TURN_FRAC
+ANGLE_ITERATIONS = 28
+LENGTH_ITERATIONS = 16
+ZONES = 8
+LARGEST_ITERATIONS = 32  # of a CORDIC
+
+
+class Field(NamedTuple):
+    """One constant of a vector-sum surface, or an array of them, a word each."""
+
+    name: str  # as in form_t of rdx_pkg
+    token: str
+    meaning: str
+    count: int = 1
+
+    @property
+    def width(self) -> int:
+        """Bits that count."""
+        return sum(int(n) for n in self.token[1:].split("p"))
+
+
+# K is the gain of the angle's CORDIC: lengths across the axis carry K, the indicator K^2.
+FORM = (
+    Field("lipschitz", "u23p33", "bound of the indicator's change over the whole segment, in each zone", ZONES),
+    Field("curvature", "u23p33", "bound of half its second derivative over the whole segment, in each zone", ZONES),
+    Field("from_level", "u6p0", "first level at which the curvature bound holds, in each zone", ZONES),
+    Field("guard", "s5p33", "1.5 K c, where c is the distance between axis and solid"),
+    Field("low", "s2p30", "box: lowest coordinates inside", 3),
+    Field("high", "s2p30", "box: highest coordinates inside", 3),
+    Field("turns", "s8p28", "T, length of the spiral"),
+    Field("turn_z", "s10p26", "turns per height"),
+    Field("turn_offset", "s14p28", "turn at the coordinate origin"),
+    Field("radius", "s5p33", "K times the centre curve's radius at its start"),
+    Field("pitch", "s6p30", "K times the rise of a turn"),
+    Field("height", "s5p33", "K times the centre curve's height at its start"),
+    Field("tube", "s5p33", "K^2 times the tube's radius at its start"),
+    Field("split", "s2p30", "height from which on the second end is the nearer"),
+    Field("start", "s2p30", "centre of the ball at the start", 3),
+    Field("stop", "s2p30", "centre of the ball at the end", 3),
+    Field("tube_stop", "s5p33", "K^2 times the tube's radius at its end"),
+    Field("turn_rho", "s10p26", "turns per radius"),
+    Field("skew_z", "s10p26", "shift of the nearest turn by the tube's growth: per height"),
+    Field("skew_rho", "s10p26", "per radius"),
+    Field("skew_offset", "s14p28", "at the coordinate origin"),
+    Field("skew_back", "u1p0", "1: the tube shrinks, the shift is downwards"),
+    Field("radius_growth", "s6p30", "K times the growth of the centre curve's radius in a turn"),
+    Field("tube_growth", "s6p30", "K^2 times the growth of the tube's radius in a turn"),
+)
+FORM_INDEX = {field.name: sum(f.count for f in FORM[:i]) for i, field in enumerate(FORM)}
+FORM_WORDS = sum(field.count for field in FORM)
+VECTOR_WORDS = HEADER_WORDS + 3 * COORD_LANES + FORM_WORDS
 
 TABLE = (
-    Constant("CoordFrac", COORD_FRAC, "", "fractional bits of a local coordinate", False),
+    Constant("CoordFrac", COORD_FRAC, "", "fractional bits of a local coordinate"),
     Constant("CoordWidth", COORD_WIDTH, "s2p30", "local coordinate, in units of the surface's axis scale"),
     Constant("CoordAccWidth", COORD_ACC_WIDTH, "s2p46", "forward-difference accumulator of a coordinate"),
     Constant("DepthWidth", DEPTH_WIDTH, "s1p31", "camera depth in units of the frame's scale; never negative"),
@@ -60,7 +115,17 @@ TABLE = (
     Constant("BoxWidth", BOX_WIDTH, "u5p0", "box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts"),
     Constant("StepsWidth", STEPS_WIDTH, "u10p0", "steps taken; at the largest value the item is given up"),
     Constant("CoordLanes", COORD_LANES, "", "x, y, z at the near end h and the far end e"),
+    Constant("VectorWidth", VECTOR_WIDTH, "s5p33", "lengths in the vector-sum evaluator; the indicator"),
+    Constant("VectorFrac", VECTOR_FRAC, "", "fractional bits of such a length"),
+    Constant("AngleWidth", ANGLE_WIDTH, "u0p32", "azimuth in turns"),
+    Constant("TurnWidth", TURN_WIDTH, "s8p28", "place on a spiral, in turns from its start"),
+    Constant("TurnFrac", TURN_FRAC, "", "fractional bits of such a place"),
+    Constant("AngleIterations", ANGLE_ITERATIONS, "", "of the CORDIC that finds radius and azimuth"),
+    Constant("LengthIterations", LENGTH_ITERATIONS, "", "of the CORDICs that find a length only"),
     Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor", False),
+    Constant("Zones", ZONES, "", "of the distance from the axis, each with bounds of its own"),
+    Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
+    Constant("VectorWords", VECTOR_WORDS, "", "words of a descriptor of a vector-sum surface", False),
     Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2", False),
     Constant("QuarticWords", QUARTIC_WORDS, "", "words of a descriptor of degree 3 or 4", False),
 )
@@ -83,6 +148,43 @@ def systemverilog() -> str:
     return "\n".join(lines) + "\n"
 
 
+def form_struct() -> str:
+    """The constants of a vector-sum surface as a SystemVerilog struct."""
+    lines = ["typedef struct packed {"]
+    for field in FORM:
+        kind = f"logic {'signed ' if field.token[0] == 's' else ''}[{field.width - 1}:0]"
+        if field.count > 1:
+            array = f"[{field.count - 1}:0]"  # a part of it has the sign of a named type only
+            kind = f"coord_t {array}" if field.token == "s2p30" else f"logic {array}{kind[6:]}"
+        lines.append(f"  {kind} {field.name};  // {field.token}: {field.meaning}")
+    return "\n".join([*lines, "} form_t;"]) + "\n"
+
+
+def form_loader() -> str:
+    """One assignment for each word of the form, for ``rtl/rdx_form.sv``."""
+    lines = []
+    for field in FORM:
+        for i in range(field.count):
+            place = f"{field.name}[{i}]" if field.count > 1 else field.name
+            word = FORM_INDEX[field.name] + i
+            lines.append(f"      if (index_i == 6'd{word}) form_o.{place} <= word_i[{field.width - 1}:0];")
+    return "\n".join(lines) + "\n"
+
+
+def angle_table() -> str:
+    """The angles of the CORDIC as a SystemVerilog constant."""
+    from .cordic import ANGLES  # which takes the width of an angle from here
+
+    text = ",\n".join(f"      {ANGLE_WIDTH}'h{angle:08x}" for angle in ANGLES)
+    return f"  localparam logic [AngleWidth-1:0] Angles[{LARGEST_ITERATIONS}] = '{{\n{text}\n  }};\n"
+
+
+def form_table() -> str:
+    """The constants of a vector-sum surface as a Markdown table."""
+    rows = [[str(FORM_INDEX[f.name]), f"`{f.name}`", str(f.count), f"`{f.token}`", f.meaning] for f in FORM]
+    return markdown_table(["first word", "constant", "words", "format", "meaning"], rows)
+
+
 def markdown() -> str:
     """The constants as a Markdown table."""
     rows = [[f"`{c.name}`", str(c.value), f"`{c.token}`" if c.token else "", c.meaning] for c in TABLE]
@@ -91,11 +193,22 @@ def markdown() -> str:
 
 def drift(write: bool = False) -> list[Path]:
     """Files whose generated block differs from the table; with ``write`` they are brought up to date."""
+
+    def sv(file, name, body):
+        return ROOT / "rtl" / file, f"  // {BEGIN}{name}\n", f"  // {END}{name}\n", body
+
+    def md(name, body):
+        return ROOT / "docs" / "number-formats.md", f"<!-- {BEGIN}{name} -->\n", f"<!-- {END}{name} -->\n", body
+
     targets = (
-        (ROOT / "rtl" / "rdx_pkg.sv", f"  // {BEGIN}\n", f"  // {END}\n", systemverilog()),
-        (ROOT / "docs" / "number-formats.md", f"<!-- {BEGIN} -->\n", f"<!-- {END} -->\n", markdown()),
+        sv("rdx_pkg.sv", "", systemverilog()),
+        (ROOT / "rtl" / "rdx_form.svh", f"// {BEGIN}: form\n", f"// {END}: form\n", form_struct()),
+        sv("rdx_cordic.sv", ": angles", angle_table()),
+        (ROOT / "rtl" / "rdx_form.sv", f"      // {BEGIN}: form\n", f"      // {END}: form\n", form_loader()),
+        md("", markdown()),
+        md(": form", form_table()),
     )
-    return [path for path, begin, end, body in targets if replace_block(path, begin, end, body, write)]
+    return sorted({path for path, begin, end, body in targets if replace_block(path, begin, end, body, write)})
 
 
 def main() -> int:

@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from .compile import CompiledFrame, CompiledSurface
 from .config import Config
 from .core import renderer, scratch
+from .formats import VECTOR_WIDTH
 from .hits import FrameHits, SurfaceHits
 from .kernel import words
 
@@ -18,12 +19,16 @@ def _piece(surface: CompiledSurface, descriptor, config: Config, hits: SurfaceHi
     """Rows ``begin`` to ``end - 1`` of a surface; returns the number of rays."""
     rows, columns, roots = hits.t.shape
     places = rows * columns * roots
-    render_rows = renderer(config.n1, config.steps, config.width, config.degree)
+    if surface.is_vector_sum:
+        width, degree, general = VECTOR_WIDTH, 1, int(config.vecsum == "general")
+    else:
+        width, degree, general = config.width, config.degree, 0
+    render_rows = renderer(config.n1, config.steps, width, degree, general)
     render_rows(
         descriptor,
         begin,
         end,
-        *scratch(config),
+        *scratch(config, degree),
         hits.t.reshape(places),
         hits.depth.reshape(places),
         hits.point.reshape(places, 3),
@@ -49,8 +54,10 @@ def trace_golden(
             work.append((hits.surface, descriptor, config, hits, begin, min(rows, begin + ROWS)))
     total = sum(hits.steps.size for hits in frame.surfaces)
     done = 0
-    if work:  # no rows: compiles the kernel, or loads it from the cache, before the clock runs
-        _piece(*work[0][:4], 0, 0)
+    for kind in (False, True):  # no rows: compiles the kernels, or loads them from the cache, before the clock runs
+        first = next((piece for piece in work if piece[0].is_vector_sum == kind), None)
+        if first:
+            _piece(*first[:4], 0, 0)
     started = time.perf_counter()
     with ThreadPoolExecutor(threads) as pool:
         for count in pool.map(lambda piece: _piece(*piece), work):

@@ -20,6 +20,8 @@ if INTERPRETED:
     def kernel(function):
         """Leave the function as it is: plain Python."""
         return function
+
+    subroutine = kernel
 else:
     import numba
 
@@ -36,6 +38,10 @@ else:
         kernel allocates; counting references all the same took more than half of the time (131 of 192 ns a step).
         """
         return numba.njit(nogil=True, cache=True, boundscheck=False, inline="always", _nrt=False)(function)
+
+    def subroutine(function):
+        """The same for a long one that is called from several places: compiled once, and called."""
+        return numba.njit(nogil=True, cache=True, boundscheck=False, _nrt=False)(function)
 
 
 def words(values):

@@ -10,6 +10,7 @@ is monotone, and each piece is searched by Newton steps kept inside a bracket.
 Every algebraic surface is written as ``F = Q1 * Q2 + Q3`` with quadrics of ten coefficients each, in the
 order of the scene file: xx, yy, zz, xy, yz, zx, x, y, z, 1. A root is a change of the sign of F along the
 ray, where zero counts as not positive: a ray that only touches from one side has no root or two equal ones.
+The spiral is not algebraic: `raydix.oracle_spiral` samples its indicator along the ray.
 """
 
 from dataclasses import dataclass
@@ -18,27 +19,33 @@ from math import radians, tan
 import numpy as np
 from numba import njit, prange
 
+from raydix import oracle_spiral
+
 MAX_ROOTS = 4
 EPSILON = 2.0**-52
 BOX_SLACK = 1e-12  # the clip box is closed: its faces count, give or take rounding (in half-extents)
 
 
 class NotPolynomial(ValueError):
-    """The surface is not a polynomial of degree <= 4 on a ray (spiral)."""
+    """The surface is not a polynomial of degree <= 4 on a ray (spiral, for `quadrics`)."""
 
 
 @dataclass(frozen=True)
 class IdealHits:
     """All hits of one surface, for every pixel.
 
-    depth: float64 (H, W, 4), distances of the accepted roots along the view axis, increasing, then inf.
-    count: int8 (H, W), how many of them there are.
+    depth: float64 (H, W, 4), distances of the accepted roots along the view axis, increasing, then inf; the
+    nearest four where a spiral has more.
+    count: int8 (H, W), how many of them there are, at most four.
     clearance: float64 (H, W), how far the ray is from another number of roots, relative and dimensionless,
     inf where nothing is near. It is the smallest of
       - for each extremum of F in front of the eye: |F| over the sum of the magnitudes of its terms (at the
         point or at the corner of the clip box, whichever is larger), or, if larger, the distance of the
         extremum outside the box in half-extents;
       - for each root in front of the eye: its distance from the surface of the box, in half-extents.
+    For a spiral |F| is the indicator in local units over the largest a(s) + r(s), R + r if nothing grows. The
+    extrema and roots behind the fourth root count, too, and the eye as if it were an extremum; rays that pass
+    by the surface at more than an eighth of its largest r(s) may have inf.
     It serves to explain disagreements, never to decide one.
     """
 
@@ -116,7 +123,8 @@ def ideal_hits(scene, surface_index):
     """All accepted roots of one surface for the whole image (`IdealHits`).
 
     A root is accepted if its depth is positive and its local point is inside the clip box.
-    Raises `NotPolynomial` for a surface that is none.
+    Raises `NotPolynomial` for a surface that is neither a polynomial nor a spiral, ValueError for a spiral
+    whose radii are not positive at both ends.
     """
     surface, camera = scene.surfaces[surface_index], scene.camera
     to_local = np.linalg.inv(np.asarray(surface.matrix, dtype=np.float64)) / surface.scale
@@ -133,7 +141,11 @@ def ideal_hits(scene, surface_index):
 
     shape = camera.height, camera.width
     hits = IdealHits(np.full((*shape, MAX_ROOTS), np.inf), np.zeros(shape, np.int8), np.full(shape, np.inf))
-    _trace(quadrics(surface), eye, axes, centre, half, corner, hits.depth, hits.count, hits.clearance)
+    if surface.type == "spiral":
+        tube = oracle_spiral.tube(surface)
+        oracle_spiral.trace(tube, eye, axes, centre, half, hits.depth, hits.count, hits.clearance)
+    else:
+        _trace(quadrics(surface), eye, axes, centre, half, corner, hits.depth, hits.count, hits.clearance)
     return hits
 
 

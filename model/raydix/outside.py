@@ -2,9 +2,13 @@
 """Cells beyond a face of the surface's box (mirrors ``rtl/rdx_outside.sv``)."""
 
 from .cells import subdivide
-from .formats import COORD_FRAC
+from .formats import COORD_FRAC, FORM_INDEX
 from .item import BOX, C
 from .kernel import kernel
+
+
+LOW = FORM_INDEX["low"]
+HIGH = FORM_INDEX["high"]
 
 
 @kernel
@@ -27,5 +31,20 @@ def outside_cells(item, cells, n1):
         subdivide(cells, 1, n1)
         for j in range(1 << n1):
             if beyond(cells[j], cells[j + 1], box):
+                mask |= 1 << j
+    return mask
+
+
+@kernel
+def outside_faces(item, cells, form, n1):
+    """The same for a vector-sum surface, whose box has faces of its own: [low, high] on each axis, s2p30."""
+    mask = 0
+    for axis in range(3):
+        low, high = form[LOW + axis], form[HIGH + axis]
+        cells[0] = item[C + axis]
+        cells[1] = item[C + 3 + axis]
+        subdivide(cells, 1, n1)
+        for j in range(1 << n1):
+            if (cells[j] < low and cells[j + 1] < low) or (cells[j] > high and cells[j + 1] > high):
                 mask |= 1 << j
     return mask

@@ -1,26 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Six times the Bernstein coefficients of Q1*Q2 + Q3 (mirrors ``rtl/rdx_quartic.sv``)."""
 
-from .formats import OPERAND_SHIFT, OPERAND_WIDTH, PRODUCT_DROP
+from .formats import OPERAND_SHIFT
 from .kernel import kernel
+from .multiply import multiply
 
 
 @kernel
 def operand(value):
     """Accumulator to operand of the product: s64p0 / 2^27 rounded half up, s36p0."""
     return (value + (1 << (OPERAND_SHIFT - 1))) >> OPERAND_SHIFT
-
-
-@kernel
-def multiply(a, b):
-    """floor(a * b / 2^12) of two s36p0 operands, formed from halves of 18 bits so that 64 bits suffice."""
-    half = OPERAND_WIDTH // 2
-    mask = (1 << half) - 1
-    a1, a0 = a >> half, a & mask
-    b1, b0 = b >> half, b & mask
-    high = (a1 * b1) << (2 * half - PRODUCT_DROP)
-    middle = (a1 * b0 + a0 * b1) << (half - PRODUCT_DROP)
-    return high + middle + ((a0 * b0) >> PRODUCT_DROP)
 
 
 @kernel

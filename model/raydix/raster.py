@@ -24,6 +24,7 @@ ROOTS_AT = SURFACE_WIDTH
 PAPER_AT = ROOTS_AT + ROOTS_WIDTH
 QUARTIC_AT = PAPER_AT + 1
 BOX_AT = QUARTIC_AT + 1
+VECTOR_AT = BOX_AT + 3 * BOX_WIDTH
 
 
 @kernel
@@ -51,6 +52,12 @@ def is_quartic(words):
 
 
 @kernel
+def is_vector_sum(words):
+    """The descriptor is that of a vector-sum surface: constants follow the coordinate lanes."""
+    return field(words[0], VECTOR_AT, 1) == 1
+
+
+@kernel
 def header(words, item, first):
     """What all items of the surface share: rule, roots wanted, box exponents, depth of the near and far plane."""
     item[PAPER] = field(words[0], PAPER_AT, 1)
@@ -71,6 +78,8 @@ def load_lanes(state, words):
     """All lanes at the first pixel of the rectangle."""
     word = HEADER_WORDS
     lanes = LANES if is_quartic(words) else COORD_LANES + 3
+    if is_vector_sum(words):
+        lanes = COORD_LANES
     for lane in range(lanes):
         quadratic = lane >= COORD_LANES
         load(state, lane, words, word, quadratic)

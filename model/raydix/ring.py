@@ -48,11 +48,12 @@ def more(item):
 
 
 @kernel
-def trace(item, first, cells, nodes, n1, steps, width, degree, t, depth, point, at):
+def trace(item, first, form, work, n1, steps, width, degree, general, t, depth, point, at):
     """Follow one item to its end; the records of its hits go to places ``at``, ``at``+1, … in order of t.
 
     item        PAPER, ROOTS and BOX are set; the rest is working state
     first       vector of item.SIZE: C, D, B of the whole segment
+    form, work, … general   as in :func:`~raydix.step.step`
     t, depth, point[3]   outputs: digits, s1p31, s2p30
     Returns the number of hits; item[STEPS] is the number of steps.
     """
@@ -60,7 +61,7 @@ def trace(item, first, cells, nodes, n1, steps, width, degree, t, depth, point, 
     enter(item, first, degree)
     while True:
         while item[STATUS] == RUN:
-            step(item, cells, nodes, n1, steps, width, degree)
+            step(item, form, work, n1, steps, width, degree, general)
         if item[STATUS] == HIT:
             t[at + hits] = item[T]
             depth[at + hits] = item[DEPTH]

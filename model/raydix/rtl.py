@@ -25,6 +25,7 @@ BENCH = ROOT / "tb" / "frame" / "frame.cpp"
 BUILD = ROOT / "build" / "rtl"
 TRACE_CONTROL = ROOT / "tb" / "trace.vlt"  # leaves out what would make waveforms huge
 RULES = {"certified": 1, "paper": 2, "both": 3}
+VECSUMS = {"none": 0, "helix": 1, "general": 2}
 
 # layout of Record in tb/frame/frame.cpp
 RECORD = np.dtype(
@@ -61,6 +62,9 @@ def parameters(config: Config) -> dict[str, int]:
         "D": config.degree,
         "U": config.units,
         "Rules": RULES[config.rules],
+        "Vecsum": VECSUMS[config.vecsum],
+        "Lanes": config.lanes,
+        "VectorUnits": config.vector_units,
     }
 
 

@@ -11,6 +11,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
@@ -91,6 +92,7 @@ Length = Annotated[float, _number("a number from 1e-9 to 1e9", lambda v: SMALLES
 Unit = Annotated[float, _number("a number from 0 to 1", lambda v: 0 <= v <= 1)]
 Opacity = Annotated[float, _number("a number above 0, up to 1", lambda v: 0 < v <= 1)]
 Degrees = Annotated[float, _number("degrees above 0 (from 1e-9), up to 170", lambda v: SMALLEST <= v <= 170)]
+Turns = Annotated[float, _number("a number above 0 (from 1e-3), up to 100", lambda v: 1e-3 <= v <= 100)]
 Pixels = Annotated[
     int,
     _before(f"an integer from 1 to {MAX_IMAGE} (the largest image for the configured pixel words)",
@@ -302,9 +304,45 @@ class Quartic(_Surface):
             yield from super()._problems()
 
 
+class Spiral(_Surface):
+    """A tube along a helix or a spiral; growth and pitch are per turn."""
+
+    type: Literal["spiral"]
+    R: Length
+    r: Length
+    pitch: Number
+    turns: Turns
+    R_growth: Number = 0.0
+    r_growth: Number = 0.0
+
+    def _problems(self) -> Iterator[Problem]:
+        yield from self._bad_ends()
+        most = 0.9 * math.hypot(self.R_growth, self.pitch)
+        if self.turns > 1 and abs(self.r_growth) > most:
+            allowed = f"a magnitude of at most 0.9 * hypot(R_growth, pitch) = {_show(most)}, as turns is above 1"
+            yield "r_growth", _show(self.r_growth), allowed
+        yield from super()._problems()
+
+    def _bad_ends(self) -> Iterator[Problem]:
+        """At the end where s = 0, else at the other: a tube of no radius or one that reaches the axis."""
+        if 100 * self.r > 99 * self.R:
+            yield "r", _show(self.r), f"at most 0.99 * R = {_show(0.99 * self.R)}"
+            return
+        turns = Fraction(self.turns)
+        big, small = (Fraction(v) + Fraction(g) * turns for v, g in ((self.R, self.R_growth), (self.r, self.r_growth)))
+        if small < SMALLEST:
+            found = f"{_show(self.r_growth)}, r is {float(small):.6g} at the far end"
+            yield "r_growth", found, "r at least 1e-9 at both ends"
+        elif 100 * small > 99 * big:
+            shrinks = -self.R_growth > self.r_growth
+            key, growth = ("R_growth", self.R_growth) if shrinks else ("r_growth", self.r_growth)
+            found = f"{_show(growth)}, r is {float(small):.6g} and R is {float(big):.6g} at the far end"
+            yield key, found, "r at most 0.99 * R at both ends"
+
+
 Surface = (
     Plane | Sphere | Ellipsoid | Cylinder | Cone | Paraboloid | HyperbolicParaboloid
-    | HyperboloidOneSheet | HyperboloidTwoSheet | Quadric | Torus | Cyclide | Quartic
+    | HyperboloidOneSheet | HyperboloidTwoSheet | Quadric | Torus | Cyclide | Quartic | Spiral
 )  # fmt: skip
 _SURFACES: dict[str, type[_Surface]] = {
     get_args(cls.model_fields["type"].annotation)[0]: cls for cls in get_args(Surface)

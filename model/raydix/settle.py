@@ -4,18 +4,22 @@
 from .halve import average
 from .item import BOX, DEPTH, C
 from .kernel import kernel
-from .outside import beyond
+from .outside import HIGH, LOW, beyond
 
 
 @kernel
-def settle(item):
+def settle(item, form, degree):
     """After the last digit: shrink the cell to its middle, the hit point; say whether that is inside the box."""
     inside = True
     for axis in range(3):
         middle = average(item[C + axis], item[C + 3 + axis])
         item[C + axis] = middle
         item[C + 3 + axis] = middle
-        if beyond(middle, middle, item[BOX + axis]):
+        if degree == 1:
+            outside = middle < form[LOW + axis] or middle > form[HIGH + axis]
+        else:
+            outside = beyond(middle, middle, item[BOX + axis])
+        if outside:
             inside = False
     middle = average(item[DEPTH], item[DEPTH + 1])
     item[DEPTH] = middle

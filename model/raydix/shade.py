@@ -11,7 +11,7 @@ from .config import Config
 from .formats import COORD_FRAC
 from .hits import FrameHits, SurfaceHits
 from .scene import Scene
-from .surfaces import form, gradient
+from .surfaces import normal_direction
 
 
 @dataclass
@@ -63,8 +63,7 @@ def _normals(scene: Scene, hits: SurfaceHits, where, basis, columns, rows) -> np
     """Unit normals (N, 3) in world space, towards the viewer; straight to the viewer where the gradient vanishes."""
     surface = scene.surfaces[hits.surface.index]
     local = np.array(hits.surface.origin) + hits.point[where] / float(1 << COORD_FRAC) * np.array(hits.surface.unit)
-    shape = form(surface)
-    normal = gradient(shape, local) @ np.linalg.inv(np.array(surface.matrix, np.float64))
+    normal = normal_direction(surface, local) @ np.linalg.inv(np.array(surface.matrix, np.float64))
     forward, right, up, pixel, width, height = basis
     ray = (
         forward

@@ -1,22 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Surfaces in local coordinates: implicit form, bounding box, gradient.
 
-Every surface is F(x, y, z) = 0 with F = q1*q2 + q3 (degree 4) or F = q3 (degree at most 2), where each q is
-a quadric given by ten coefficients in the order of `MONOMIALS`. F is positive outside a closed surface.
-Coefficients and boxes are mpmath numbers of 256 bits, computed from the scene's float64 numbers taken as
-the exact binary values they are.
+Every surface but the spiral is algebraic: F(x, y, z) = 0 with F = q1*q2 + q3 (degree 4) or F = q3 (degree at
+most 2), where each q is a quadric given by ten coefficients in the order of `MONOMIALS`. F is positive outside
+a closed surface. The spiral has an indicator instead, in `raydix.spiral`. Coefficients and boxes are mpmath
+numbers of 256 bits, computed from the scene's float64 numbers taken as the exact binary values they are.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from mpmath import mp, mpf
 
+from raydix import spiral
+
 if TYPE_CHECKING:
-    from raydix.scene import Surface
+    from raydix.scene import Spiral, Surface
 
 PRECISION = 256
 
@@ -64,7 +66,10 @@ def _definite(q: Quadric) -> int:
 
 @mp.workprec(PRECISION)
 def form(surface: "Surface") -> Form:
-    """The implicit form of a surface of the scene, in its local coordinates."""
+    """The implicit form of a surface of the scene, in its local coordinates.
+
+    Raises ValueError for a surface that is not algebraic: a spiral.
+    """
     s = surface
     match s.type:
         case "plane":
@@ -124,9 +129,9 @@ def is_constant(q1: Sequence[float], q2: Sequence[float], q3: Sequence[float]) -
 def bounding_box(surface: "Surface") -> Box | None:
     """Corners (low, high) of a local box that holds the whole surface; None if the surface is unbounded.
 
-    Tight for every closed type but `quartic`, whose box is the cube about a sphere that holds it. A quartic
-    counts as closed only if the quadratic parts of Q1 and Q2 are both definite. An empty ellipsoid gives a
-    box of no size.
+    Tight for every closed type but `quartic`, whose box is the cube about a sphere that holds it, and a `spiral`
+    that grows: then x and y have a margin. A quartic counts as closed only if the quadratic parts of Q1 and Q2
+    are both definite. An empty ellipsoid gives a box of no size.
     """
     s = surface
     match s.type:
@@ -143,6 +148,8 @@ def bounding_box(surface: "Surface") -> Box | None:
         case "quartic":
             radius = _radius(form(s))
             return None if radius is None else _centred(radius, radius, radius)
+        case "spiral":
+            return _spiral_box(s)
     return None
 
 
@@ -170,6 +177,37 @@ def _cyclide_box(a: mpf, b: mpf, d: mpf) -> Box:
     """
     c = mp.sqrt((a - b) * (a + b))
     return (-(a + c + d), -(a + d), -(c + d)), (a + abs(d - c), a + d, c + d)
+
+
+def _spiral_box(s: "Spiral") -> Box:
+    """The end balls and, across the axis, the tube: R(s) -+ r(s) times the range of the azimuth's cosine or sine.
+
+    R, r and z grow evenly with s, so that R - r, R + r and z -+ r are extreme at the ends.
+    """
+    ends = (mpf(0), mpf(s.turns))
+    a, r, z = [s.R + s.R_growth * t for t in ends], [s.r + s.r_growth * t for t in ends], [s.pitch * t for t in ends]
+    inner, outer = _reach(a, r)
+    sides = []
+    for curve in (mp.cospi, mp.sinpi):
+        least, most = _range(curve, ends[1])
+        low, high = _reach([radius * curve(2 * t) for radius, t in zip(a, ends, strict=True)], r)
+        tube = least * (outer if least < 0 else inner), most * (outer if most > 0 else inner)
+        sides.append((min(low, tube[0]), max(high, tube[1])))
+    low, high = zip(*sides, _reach(z, r), strict=True)
+    return low, high
+
+
+def _reach(centres: Sequence[mpf], radii: Sequence[mpf]) -> tuple[mpf, mpf]:
+    """Least centre - radius and largest centre + radius."""
+    pairs = list(zip(centres, radii, strict=True))
+    return min(c - r for c, r in pairs), max(c + r for c, r in pairs)
+
+
+def _range(curve: Callable[[mpf], mpf], turns: mpf) -> tuple[mpf, mpf]:
+    """Least and largest of mp.cospi or mp.sinpi over the first `turns` turns: at an end or at a quarter turn."""
+    quarters = [mpf(i) / 2 for i in range(1, 4) if i <= 4 * turns]
+    values = [curve(u) for u in (mpf(0), *quarters, 2 * turns)]
+    return min(values), max(values)
 
 
 def _radius(f: Form) -> mpf | None:
@@ -239,3 +277,13 @@ def gradient(form: Form, points: np.ndarray) -> np.ndarray:
         (v1, g1), (v2, g2) = _evaluate(form.q1, points), _evaluate(form.q2, points)
         g = g + v1[..., None] * g2 + v2[..., None] * g1
     return g
+
+
+def normal_direction(surface: "Surface", points: np.ndarray) -> np.ndarray:
+    """Direction of the normal in float64 at local points (..., 3) of the surface; shape (..., 3), not normalised.
+
+    It is the gradient of F or, for a spiral, of its indicator: outwards if the surface is closed, 0 at singular points.
+    """
+    if surface.type == "spiral":
+        return spiral.gradient(surface, points)
+    return gradient(form(surface), points)

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays of algebraic surfaces to hits: control points, then the ring.
+//
+// Formats    as rdx_product and rdx_ring.
+// Timing     as rdx_product and rdx_ring.
+// Reset      control only.
+// Model      model/raydix/core.py
+`default_nettype none
+`include "rdx_types.svh"
+
+module rdx_algebraic #(
+    parameter int unsigned N1 = 3,
+    parameter int unsigned K = 8,
+    parameter int unsigned W = 36,
+    parameter int unsigned D = 4,
+    parameter int unsigned U = 8,
+    parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter int unsigned HalveStages = (D + 1) / 2,
+    localparam int unsigned Quads = D == 4 ? 9 : 3
+) (
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire logic           ray_valid_i,
+    output logic                ray_ready_o,
+    input  wire rdx_pkg::ray_t  ray_i,
+    input  wire rdx_pkg::ends_t ends_i,
+    input  wire logic           quartic_i,
+    input  wire rdx_pkg::quad_t quads_i    [Quads],
+    output logic                hit_valid_o,
+    input  wire logic           hit_ready_i,
+    output rdx_pkg::hit_t       hit_o
+);
+  import rdx_pkg::*;
+
+  localparam type segment_t = `RDX_SEGMENT_T(W, D);
+
+  logic ray_valid, ray_ready;
+  ray_t     ray;
+  segment_t segment;
+  rdx_product #(
+      .W(W),
+      .D(D)
+  ) u_product (
+      .clk_i,
+      .rst_ni,
+      .ray_valid_i,
+      .ray_ready_o,
+      .ray_i,
+      .ends_i,
+      .quartic_i,
+      .quads_i,
+      .ray_valid_o(ray_valid),
+      .ray_ready_i(ray_ready),
+      .ray_o(ray),
+      .segment_o(segment)
+  );
+  rdx_ring #(
+      .N1(N1),
+      .K(K),
+      .W(W),
+      .D(D),
+      .U(U),
+      .Rules(Rules),
+      .HalveStages(HalveStages)
+  ) u_ring (
+      .clk_i,
+      .rst_ni,
+      .form_i('0),
+      .ray_valid_i(ray_valid),
+      .ray_ready_o(ray_ready),
+      .ray_i(ray),
+      .segment_i(segment),
+      .hit_valid_o,
+      .hit_ready_i,
+      .hit_o
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// The indicator of a spiral at a point: one lane of the vector-sum evaluator.
+//
+// Radius and azimuth of the point, then the nearest turn and the distance from its tube, beside it the distance from
+// the ball at the (nearer) end: the least of them is the indicator. Its magnitude is limited to what bounds its change:
+// at most half of 1.5 K times the distance from the axis, at least the guard less the whole of it (docs/method.md).
+//
+// Formats    point_i: x, y, z in s2p30, z carries K. value_o: K^2 times the indicator, s5p33; positive outside.
+//            form_i is constant while points are under way.
+// Rounding   that of the parts.    Overflow   cannot happen: compile scales the scene.
+// Timing     latency rdx_pkg::VecsumLatency clocks in which en_i = 1, one point a clock.
+// Reset      of the waiting lines' places only.
+// Error      docs/method.md, "Error of the evaluator"
+// Model      model/raydix/vecsum.py (evaluate)
+`default_nettype none
+
+module rdx_vecsum #(
+    parameter bit General = 1'b0
+) (
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire logic            en_i,
+    input  wire rdx_pkg::form_t  form_i,
+    input  wire rdx_pkg::coord_t point_i[3],
+    output rdx_pkg::vector_t     value_o
+);
+  import rdx_pkg::*;
+
+  localparam int unsigned Parts = General ? 2 : 1;  // turns, and balls, that are looked at
+  localparam int unsigned ToTube = AngleIterations + 1 + TurnLatency;
+
+  // ---- radius and azimuth ----
+  vector_t rho;
+  angle_t  angle;
+  coord_t z, z_tube;
+  rdx_cordic #(
+      .W(VectorWidth),
+      .Iterations(AngleIterations),
+      .Angle(1'b1)
+  ) u_polar (
+      .clk_i,
+      .en_i,
+      .x_i(vector_t'(point_i[0]) <<< (VectorFrac - CoordFrac)),
+      .y_i(vector_t'(point_i[1]) <<< (VectorFrac - CoordFrac)),
+      .x_o(rho),
+      .angle_o(angle)
+  );
+  rdx_line #(
+      .W(CoordWidth),
+      .Depth(AngleIterations + 1)
+  ) u_z (
+      .clk_i,
+      .rst_ni,
+      .en_i,
+      .data_i(point_i[2]),
+      .data_o(z)
+  );
+
+  // ---- the nearest turn ----
+  turn_t place[Parts];
+  logic  none;
+  vector_t rho_tube, rho_end;
+  rdx_turn #(
+      .General(General)
+  ) u_turn (
+      .clk_i,
+      .en_i,
+      .form_i,
+      .rho_i  (rho),
+      .z_i    (z),
+      .angle_i(angle),
+      .place_o(place),
+      .none_o (none)
+  );
+  rdx_line #(
+      .W(VectorWidth + CoordWidth),
+      .Depth(TurnLatency)
+  ) u_to_tube (
+      .clk_i,
+      .rst_ni,
+      .en_i,
+      .data_i({rho, z}),
+      .data_o({rho_tube, z_tube})
+  );
+  rdx_line #(
+      .W(VectorWidth),
+      .Depth(TubeLatency)
+  ) u_to_end (
+      .clk_i,
+      .rst_ni,
+      .en_i,
+      .data_i(rho_tube),
+      .data_o(rho_end)
+  );
+
+  // ---- distances ----
+  vector_t distance[2*Parts];
+  for (genvar i = 0; i < Parts; i++) begin : gen_part
+    rdx_tube #(
+        .General(General)
+    ) u_tube (
+        .clk_i,
+        .rst_ni,
+        .en_i,
+        .form_i,
+        .rho_i(rho_tube),
+        .z_i(z_tube),
+        .place_i(place[i]),
+        .none_i(none),
+        .distance_o(distance[2*i])
+    );
+    vector_t from_ball;
+    wire stop = General ? i == 1 : point_i[2] >= form_i.split;
+    rdx_ball u_ball (
+        .clk_i,
+        .rst_ni,
+        .en_i,
+        .form_i,
+        .stop_i(stop),
+        .size_i(i == 1 ? form_i.tube_stop : form_i.tube),
+        .point_i,
+        .distance_o(from_ball)
+    );
+    rdx_line #(
+        .W(VectorWidth),
+        .Depth(ToTube + TubeLatency - BallLatency)
+    ) u_from_ball (
+        .clk_i,
+        .rst_ni,
+        .en_i,
+        .data_i(from_ball),
+        .data_o(distance[2*i+1])
+    );
+  end
+
+  // ---- two clocks: the least distance, and its limits ----
+  vector_t least, least_q, axis_q, guard_q, limited, size_q;
+  logic outside_q;
+  always_comb begin
+    least = distance[0];
+    for (int unsigned i = 1; i < 2 * Parts; i++) if (distance[i] < least) least = distance[i];
+    limited = least_q < 0 ? -least_q : least_q;
+    if (limited > (axis_q >>> 1)) limited = axis_q >>> 1;
+    if (limited < guard_q) limited = guard_q;
+  end
+  wire vector_t axis = rho_end + (rho_end >>> 1);
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      least_q <= least;
+      axis_q <= axis;
+      guard_q <= form_i.guard - axis;
+      size_q <= limited;
+      outside_q <= least_q > 0;
+      value_o <= outside_q ? size_q : -size_q;
+    end
+  end
+  wire unused = &{1'b0, form_i};
+
+endmodule
+
+`default_nettype wire
