@@ -25,6 +25,7 @@ module rdx_vecsum #(
     output rdx_pkg::vector_t     value_o
 );
   import rdx_pkg::*;
+  /*verilator no_inline_module*/  // many copies: compiled once
 
   localparam int unsigned Parts = General ? 2 : 1;  // turns, and balls, that are looked at
   localparam int unsigned ToTube = AngleIterations + 1 + TurnLatency;

@@ -11,6 +11,7 @@ from rich.table import Table
 
 from raydix.compile import compile_scene
 from raydix.config import Config
+from raydix.fit import families
 from raydix.golden import trace_golden
 from raydix.rtl import RtlError, build, trace_rtl
 from raydix.scene import SceneError, load_scene
@@ -25,9 +26,9 @@ def main():
     parser.add_argument("--runs", type=int, default=21, help="runs of each (default: 21)")
     parser.add_argument("--units", type=int, default=8, help="step units in the RTL (default: 8)")
     args = parser.parse_args()
-    config = Config(units=args.units, rules="certified")
     try:
         scene = load_scene(args.scene)
+        config = Config(units=args.units, rules="certified", **families(scene))
         compiled = compile_scene(scene, config)
         build(config)
         # one and two threads take turns, so that noise hits both
@@ -41,7 +42,7 @@ def main():
     for name in ("", "median, ms", "fastest, ms", "slowest, ms", "Mpixel/s"):
         table.add_column(name, justify="right" if name else "left")
     one, two = zip(*golden, strict=True)
-    sides = {"golden, 1 thread": one, "golden, 2 threads": two, f"RTL, U = {args.units}": rtl}
+    sides = {"golden, 1 thread": one, "golden, 2 threads": two, "RTL": rtl}
     for label, seconds in sides.items():
         median = statistics.median(seconds)
         times = (f"{1e3 * t:.1f}" for t in (median, min(seconds), max(seconds)))

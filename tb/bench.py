@@ -225,6 +225,19 @@ ENDS = Struct(*_ENDS)
 HIT = Struct(
     *_PLACE, ("hit", 1), ("last", 1), ("t", 32), ("depth", _DEPTH), ("point", _COORD, 3), ("steps", formats.STEPS_WIDTH)
 )
+FORM = Struct(
+    *((f.name, -f.width if f.token[0] == "s" else f.width, *([f.count] if f.count > 1 else [])) for f in formats.FORM)
+)
+
+
+def form_fields(words):
+    """The words of a vector-sum surface's constants as fields of :data:`FORM`."""
+    fields = {}
+    for field in formats.FORM:
+        at = formats.FORM_INDEX[field.name]
+        values = [int(word) for word in words[at : at + field.count]]
+        fields[field.name] = values if field.count > 1 else values[0]
+    return fields
 
 
 def control(digits):

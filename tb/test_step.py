@@ -8,7 +8,11 @@ import cocotb
 import pytest
 
 import bench
+import latency
+import spirals
+from raydix.ends import ends as indicator_at_ends
 from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, DEPTH_WIDTH, ROOTS_WIDTH, STEPS_MAX
+from raydix.formats import VECTOR_WIDTH as VECTOR
 from raydix.item import (
     AGAIN,
     BOX,
@@ -31,12 +35,16 @@ from raydix.item import (
     C,
     T,
 )
+from raydix.kernel import words, zeros
 from raydix.normalize import norm_limit
-from raydix.step import step
+from raydix.step import new_work, step
+from raydix.vecsum import new_lanes
 
 CERTIFIED_ONLY, PAPER_ONLY, BOTH = 1, 2, 3
 SCALARS = dict(status=STATUS, paper=PAPER, roots=ROOTS, level=LEVEL, steps=STEPS, follow=FOLLOW, pending=PENDING)
 SCALARS |= dict(t=T, t_min=TMIN, t_next=TNEXT)
+ALGEBRAIC, VECTOR_SUM = ["equals_model", "within_bound"], ["vector_sums_equal_model", "indicator_is_that_at_the_ends"]
+REACH = 7 << COORD_FRAC - 2  # largest coordinate of a vector sum's segment, 7/4
 
 
 def shape(dut):
@@ -51,23 +59,37 @@ def structs(dut):
     return dict(control_i=control, control_o=control, segment_i=segment, segment_o=segment)
 
 
-def model(dut, control, segment):
+def item_of(control, segment):
+    """The model's item of two dictionaries of fields."""
+    item = zeros(SIZE)
+    for name, place in SCALARS.items():
+        item[place] = control[name]
+    item[BOX : BOX + 3] = words(control["box"])
+    item[C : C + 6] = words([*segment["start"], *segment["stop"]])
+    item[DEPTH : DEPTH + 2] = words([segment["depth_start"], segment["depth_stop"]])
+    item[B : B + len(segment["b"])] = words(segment["b"])
+    return item
+
+
+def fields_of(item, degree):
+    """And back: control, segment."""
+    control = {name: int(item[place]) for name, place in SCALARS.items()} | dict(box=item[BOX : BOX + 3].tolist())
+    segment = dict(start=item[C : C + 3].tolist(), stop=item[C + 3 : C + 6].tolist())
+    segment |= dict(depth_start=int(item[DEPTH]), depth_stop=int(item[DEPTH + 1]), b=item[B : B + degree + 1].tolist())
+    return control, segment
+
+
+def model(dut, control, segment, form=None):
     """Control and segment after the model's step, with the rule that the design has."""
     n1, steps, width, degree, rules = shape(dut)
     if control["status"] != RUN:
         return control, segment
-    item = [0] * SIZE
-    for name, place in SCALARS.items():
-        item[place] = control[name]
+    item = item_of(control, segment)
     item[PAPER] = {CERTIFIED_ONLY: 0, PAPER_ONLY: 1, BOTH: control["paper"]}[rules]
-    item[BOX : BOX + 3] = control["box"]
-    item[C : C + 6] = segment["start"] + segment["stop"]
-    item[DEPTH : DEPTH + 2] = segment["depth_start"], segment["depth_stop"]
-    item[B : B + degree + 1] = segment["b"]
-    step(item, [0] * ((1 << n1) * degree + 1), [0] * ((n1 + 1) * (degree + 1)), n1, steps, width, degree)
-    after = {name: item[place] for name, place in SCALARS.items()} | dict(paper=control["paper"], box=control["box"])
-    moved = dict(start=item[C : C + 3], stop=item[C + 3 : C + 6], b=item[B : B + degree + 1])
-    return after, moved | dict(depth_start=item[DEPTH], depth_stop=item[DEPTH + 1])
+    general = degree == 1 and bench.parameter(dut, "General")
+    step(item, form, new_work(n1, degree), n1, steps, width, degree, general)
+    after, moved = fields_of(item, degree)
+    return after | dict(paper=control["paper"]), moved
 
 
 def polynomial(random, width, degree):
@@ -141,31 +163,42 @@ def stimuli(dut, count):
         yield dict(control_i=control, segment_i=segment | dict(b=b))
 
 
+def latency_of(dut):
+    """Clocks of a step."""
+    n1, _, _, degree, rules = shape(dut)
+    return latency.step(n1, degree, bench.parameter(dut, "HalveStages"), bench.parameter(dut, "Lanes"), rules)
+
+
+def expected(dut, kinds, seen, item, form=None):
+    """The output ports: what is no longer needed is what the design gives. Notes the change of status in ``seen``."""
+    control, segment = model(dut, item["control_i"], item["segment_i"], form)
+    before, after = item["control_i"]["status"], control["status"]
+    seen.add((before, after))
+    given = kinds["segment_o"].unpack(bench.Port(dut, "segment_o").read()[0])
+    segment = dict(segment)
+    if after != RUN:
+        segment["b"] = given["b"]
+        if after != HIT:
+            segment = given
+    return dict(control_o=control, segment_o=segment)
+
+
+EVERY_CHANGE = {(RUN, s) for s in (RUN, HIT, AGAIN, DONE)} | {(s, s) for s in (IDLE, AGAIN, HIT, DONE)}
+
+
 @cocotb.test
 async def equals_model(dut):
     """Every field that is still needed, step_latency clocks later. Of items that are not Run the control fields pass
     unchanged, of a hit the point, too: halving a cell whose ends have met does not move them."""
-    n1, _, _, _, rules = shape(dut)
     kinds = structs(dut)
     seen = set()
 
     def expect(item):
-        control, segment = model(dut, item["control_i"], item["segment_i"])
-        before, after = item["control_i"]["status"], control["status"]
-        seen.add((before, after))
-        given = kinds["segment_o"].unpack(bench.Port(dut, "segment_o").read()[0])
-        segment = dict(segment)
-        if after != RUN:
-            segment["b"] = given["b"]
-            if after != HIT:
-                segment = given
-        return dict(control_o=control, segment_o=segment)
+        return expected(dut, kinds, seen, item)
 
     await bench.start(dut)
-    select = 1 if rules == CERTIFIED_ONLY else 2 + (n1 + 2) // 2
-    latency = n1 * bench.parameter(dut, "HalveStages") + select + 1 + 2
-    await bench.pipeline(dut, stimuli(dut, 1000), expect, latency, kinds)
-    assert seen == {(RUN, s) for s in (RUN, HIT, AGAIN, DONE)} | {(s, s) for s in (IDLE, AGAIN, HIT, DONE)}, seen
+    await bench.pipeline(dut, stimuli(dut, 1000), expect, latency_of(dut), kinds)
+    assert seen == EVERY_CHANGE, seen
 
 
 @cocotb.test
@@ -224,6 +257,115 @@ def blossom(b, ends):
     return points
 
 
+# ---- vector sums, D = 1 ----
+
+
+def surfaces(dut):
+    """Compiled spirals that the evaluator at hand can do."""
+    for name, index in spirals.GENERAL if bench.parameter(dut, "General") else spirals.HELIX:
+        yield spirals.surface(name, index, shape(dut)[0])
+
+
+def made_up(random, constants, left):
+    """A segment anywhere within reach, as long as a cell of ``left`` digits or so; any values, small ones too."""
+    segment = carried(random, [0, 0, 0])
+    start = [random.choice((REACH, -REACH, random.randint(-REACH, REACH))) for _ in range(3)]
+    if random.random() < 0.5:  # at a face of the box
+        face, axis = random.choice(("low", "high")), random.randrange(3)
+        start[axis] = constants[face][axis] + random.choice((-1, 0, 1))
+    stop = [v + random.randint(-REACH, REACH) // (1 << random.choice((0, 2, 32 - left))) for v in start]
+    ends = [[max(-REACH, min(REACH, v)) for v in end] for end in (start, stop)]
+    bits = [random.randint(2, VECTOR) for _ in range(2)]
+    values = [max(-bench.high(VECTOR), bench.signed(random.getrandbits(n), n)) for n in bits]
+    return segment | dict(start=ends[0], stop=ends[1], b=values)
+
+
+def vector_sum_stimuli(dut, random, found, count):
+    """Items of the model at the start of their steps, some changed in what is not their segment, and made-up ones."""
+    n1, steps, _, degree, rules = shape(dut)
+    general, digits = bench.parameter(dut, "General"), n1 * steps
+    constants = bench.form_fields(spirals.form(found))
+    for item in spirals.items(random, found, n1, steps, general, count):
+        control, segment = fields_of(item, degree)
+        control["paper"] = int(rules == PAPER_ONLY or random.random() < 0.3)
+        if random.random() < 0.3:
+            # the paper rule needs no sign change on its way: it comes to any level with any segment
+            control["level"] = random.choice((0, steps - 1, random.randrange(steps)))
+            left = n1 * (steps - control["level"])
+            control["t"] = control["t"] >> left << left
+            if random.random() < 0.5:
+                segment = made_up(random, constants, left)
+        if random.random() < 0.4:
+            control |= dict(follow=1, t_min=random.choice((control["t"], random.getrandbits(digits))))
+        if random.random() < 0.3:
+            control |= dict(pending=1 - control["pending"], t_next=random.getrandbits(digits))
+        if random.random() < 0.1:
+            control["steps"] = random.choice((STEPS_MAX - 1, STEPS_MAX - 2))
+        if random.random() < 0.1:
+            control["status"] = random.choice((IDLE, AGAIN, HIT, DONE))
+            if control["status"] == HIT:  # its ends have met
+                segment |= dict(stop=segment["start"], depth_stop=segment["depth_start"])
+        yield dict(control_i=control, segment_i=segment)
+
+
+def with_phases(dut, random, items):
+    """Each item at phase 0; in the other phases, and behind the last one, anything that is not to matter."""
+    kinds = structs(dut)
+    count = latency.phases((1 << shape(dut)[0]) - 1, bench.parameter(dut, "Lanes"))
+
+    def anything(phase):
+        parts = {name: kind.unpack(random.getrandbits(kind.width)) for name, kind in kinds.items() if name[-1] == "i"}
+        return parts | dict(phase_i=phase)
+
+    for item in items:
+        yield item | dict(phase_i=0)
+        for phase in range(1, count):
+            yield anything(phase)
+    for clock in range(latency_of(dut)):
+        yield anything(clock % count)
+
+
+@cocotb.test
+async def vector_sums_equal_model(dut):
+    """Every field that is still needed, step_latency clocks later, of an item each Phases clocks; several surfaces."""
+    kinds, seen, random = structs(dut), set(), bench.rng()
+    place = bench.Port(dut, "form_i", bench.FORM)
+    await bench.start(dut)
+    clocks = 0
+    for found in surfaces(dut):
+        constants = spirals.form(found)
+        place.write(bench.form_fields(constants))
+        items = list(vector_sum_stimuli(dut, random, found, 150))
+        number = {id(item["control_i"]): item for item in items}  # the bubbles are not in it
+
+        def expect(item, number=number, constants=constants):
+            known = id(item["control_i"]) in number
+            return expected(dut, kinds, seen, item, constants) if known else {}
+
+        clocks += await bench.pipeline(dut, with_phases(dut, random, items), expect, latency_of(dut), kinds)
+    dut._log.info(f"{clocks} clocks")
+    assert seen == EVERY_CHANGE, seen
+
+
+@cocotb.test
+async def indicator_is_that_at_the_ends(dut):
+    """The values that the model's item carries from step to step are the evaluator's at its ends."""
+    n1, steps, _, degree, _ = shape(dut)
+    general, lanes, random = bench.parameter(dut, "General"), new_lanes(2), bench.rng()
+    hits = 0
+    for found in surfaces(dut):
+        constants = spirals.form(found)
+        for number, item in enumerate(spirals.items(random, found, n1, steps, general, 300)):
+            control, segment = fields_of(item, degree)
+            after, moved = model(dut, control, segment, constants)
+            copy = item_of(after, moved)
+            indicator_at_ends(copy, lanes, constants, general)
+            if after["status"] == RUN and copy[B : B + 2].tolist() != moved["b"]:
+                raise bench.mismatch(number, segment, [f"values {moved['b']}, at the ends {copy[B : B + 2]}"])
+            hits += after["status"] == HIT
+    assert hits > 10, f"{hits} hits"
+
+
 SETS = [
     dict(N1=3, K=8, W=36, D=4, Rules=BOTH),
     dict(N1=3, K=8, W=36, D=4, Rules=CERTIFIED_ONLY, HalveStages=0),
@@ -237,4 +379,19 @@ SETS = [
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_step(parameters):
     """The reference with each set of rules; J = 2 to 16, all widths, as many digits as fit."""
-    bench.run(__name__, "rdx_step", parameters)
+    bench.run(__name__, "rdx_step", parameters, ALGEBRAIC)
+
+
+VECTOR_SETS = [
+    dict(N1=1, K=32, Lanes=1, General=0, Rules=BOTH),
+    dict(N1=2, K=5, Lanes=1, General=1, Rules=CERTIFIED_ONLY),
+    dict(N1=3, K=8, Lanes=7, General=0, Rules=BOTH),
+    dict(N1=3, K=8, Lanes=3, General=1, Rules=BOTH),
+    dict(N1=4, K=8, Lanes=4, General=1, Rules=PAPER_ONLY),
+]
+
+
+@pytest.mark.parametrize("parameters", VECTOR_SETS, ids=bench.label)
+def test_step_of_vector_sums(parameters):
+    """One evaluator, some and all; for helices and for every spiral; each rule alone and both."""
+    bench.run(__name__, "rdx_step", dict(D=1, W=VECTOR, HalveStages=1) | parameters, VECTOR_SUM)

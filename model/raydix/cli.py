@@ -16,10 +16,10 @@ from rich.table import Table
 
 from .compile import CompiledFrame
 from .config import RULES, Config, ConfigError
+from .fit import families
 from .image import ImageError, frame_writers, write_files
 from .rtl import RtlError, build
 from .scene import Scene, SceneError, load_scene
-from .surfaces import form
 
 if TYPE_CHECKING:
     from .render import Verdict
@@ -41,6 +41,10 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
     parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
+    parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
+    parser.add_argument(
+        "--vector-units", type=int, default=1, metavar="U", help="step units in the vector-sum ring (default: 1)"
+    )
     parser.add_argument("--size", type=_size, metavar="WxH", help="image size instead of the scene's")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
 
@@ -71,15 +75,34 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _config(args: argparse.Namespace, scene: Scene) -> Config:
-    """The configuration asked for; only the rule that is used and the degree that the scene needs are built."""
+    """The configuration asked for; only the rule that is used and the families that the scene needs are built."""
     if not 1 <= args.n1 <= 4:
         raise ConfigError(f"n1: found {args.n1}; allowed: 1 to 4")
     if args.threads < 1:
         raise ConfigError(f"threads: found {args.threads}; allowed: 1 or more")
     steps = REFERENCE_DIGITS // args.n1 if args.steps is None else args.steps
     units = max(1, min(8, steps)) if args.units is None else args.units
-    degree = 4 if any(form(s).q1 is not None for s in scene.surfaces) else 2
-    return Config(args.n1, steps, args.width, degree, units, args.rule, args.rule)
+    return Config(
+        n1=args.n1,
+        steps=steps,
+        width=args.width,
+        units=units,
+        rules=args.rule,
+        rule=args.rule,
+        lanes=args.lanes,
+        vector_units=args.vector_units,
+        **families(scene),
+    )
+
+
+def _described(config: Config) -> str:
+    """What is built of each ring."""
+    parts = [f"n1 = {config.n1}, K = {config.steps}"]
+    if config.degree:
+        parts.append(f"W = {config.width}, D = {config.degree}, U = {config.units}")
+    if config.vecsum != "none":
+        parts.append(f"vector sums: {config.vecsum}, lanes = {config.lanes}, U = {config.vector_units}")
+    return "; ".join(parts)
 
 
 @contextmanager
@@ -103,7 +126,7 @@ def _load(args: argparse.Namespace, path: Path) -> Scene:
 def _build(config: Config, trace: str | None = None) -> None:
     """Build the simulator, with a word about it: it takes a while."""
     console = Console(stderr=True)
-    text = f"building the RTL with Verilator (U = {config.units}; at most half a minute, nothing if it stands) …"
+    text = f"building the RTL with Verilator ({_described(config)}; about a minute, nothing if it stands) …"
     if not console.is_terminal:
         print(f"raydix: {text}", file=sys.stderr, flush=True)
     with console.status(text):
@@ -188,10 +211,7 @@ def _verify(args: argparse.Namespace) -> int:
         write_verdict(verdict, out, scene.name)
         _say_what_is_seen(scene, verdict.golden.hits.compiled)
         verdicts[scene.name] = verdict
-        print(
-            f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: n1 = {config.n1}, "
-            f"K = {config.steps}, W = {config.width}, D = {config.degree}, U = {config.units}"
-        )
+        print(f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: {_described(config)}")
     shown = list(verdicts.items())
     for i in range(0, len(shown), 2):  # two scenes fit a terminal of 80 columns
         Console().print(_table(dict(shown[i : i + 2])))

@@ -51,6 +51,15 @@ def bounds(tube: Tube, near) -> tuple[mp.mpf, mp.mpf]:
     return lipschitz, lipschitz**2 / _thinnest(tube, near) + 1 / near + slope / near
 
 
+def epsilon(tube: Tube, scale, digits: int):
+    """Bound of the evaluator's error, scaled coordinates: what may be missed or seen too much has less clearance.
+
+    Source: docs/spirals.md, "Error of the evaluator".
+    """
+    lipschitz, _ = bounds(tube, tube.clear)
+    return mp.ldexp((2 * digits + 16) * lipschitz + 32 * tube.slant * scale, -31)
+
+
 def _thinnest(tube: Tube, near):
     """Least distance from the centre curve of a point outside of the solid, ``near`` or farther from the axis.
 
@@ -60,9 +69,7 @@ def _thinnest(tube: Tube, near):
     growth = tube.size_growth + tube.radius_growth
     if growth:
         places.append(min(max((near - tube.radius - tube.size) / growth, mp.mpf(0)), tube.turns))
-    return min(
-        max(tube.size + tube.size_growth * s, near - tube.radius - tube.radius_growth * s) for s in places
-    )
+    return min(max(tube.size + tube.size_growth * s, near - tube.radius - tube.radius_growth * s) for s in places)
 
 
 def _zones(tube: Tube, scale, length, n1) -> dict:
@@ -74,10 +81,9 @@ def _zones(tube: Tube, scale, length, n1) -> dict:
         inner = mp.ldexp(1, zone + 1 - ZONES) if zone else mp.mpf(0)
         clear = tube.clear * scale
         lipschitz, bend = bounds(tube, max(inner, clear) / scale / 2)
-        if inner > clear:  # a cell stays within half of the zone's inner radius
-            longest = inner
-        else:  # a cell that does not stay within half of the clear distance is excluded by the guard
-            longest = clear / (1 + gain_length / mp.mpf("1.5") * lipschitz)
+        # the cells of a zone stay beyond half of its inner radius; about the axis, those that do not stay beyond half
+        # of the clear distance are excluded by the guard
+        longest = inner if inner > clear else clear / (1 + gain_length / mp.mpf("1.5") * lipschitz)
         curvature = bend / scale * length**2 / 2 * squared
         level = 0
         while length * mp.ldexp(1, -n1 * (level + 1)) >= longest:
@@ -154,10 +160,11 @@ def _words(values: dict) -> list[int]:
     return words
 
 
-def spiral_words(surface, h, e, low, high, cut, columns, rows, n1):
-    """Coordinate words, form words, origin and unit of each axis.
+def form_words(surface, points, length, low, high, cut, n1):
+    """Words of the form, the height of the coordinate origin, and the factor of each axis.
 
-    h, e       ends of the first ray's segment and their change per column and row, local vectors
+    points     local vectors that hold all ends of segments in their hull
+    length     of the longest segment
     low, high  the local box, cut: which axes it cuts
     Raises :class:`Oversize`.
     """
@@ -169,17 +176,12 @@ def spiral_words(surface, h, e, low, high, cut, columns, rows, n1):
     middle = (floor + ceiling) / 2
     growth = (tube.radius_growth + tube.size_growth) * tube.turns
     widest = tube.radius + tube.size + max(mp.mpf(0), growth)
-
-    corners = [(x, y) for x in (0, columns) for y in (0, rows)]
-    points = [v[0] + x * v[1] + y * v[2] for v in (h, e) for x, y in corners]
     largest = max(max(abs(p[0]), abs(p[1]), gain_angle * abs(p[2] - middle)) for p in points)
     scale = REACH / max(largest, widest, gain_angle * (ceiling - floor) / 2)
     factors = (scale, scale, gain_angle * scale)
     across, squared = gain_angle * scale, gain_angle * gain_length * scale
-    length = max(mp.norm((e[0] - h[0]) + x * (e[1] - h[1]) + y * (e[2] - h[2])) for x, y in corners) * SLACK
-
     values = {
-        **_zones(tube, scale, length * scale, n1),
+        **_zones(tube, scale, length * SLACK * scale, n1),
         "guard": mp.mpf("1.5") * tube.clear * across,
         "turns": tube.turns,
         "radius": tube.radius * across,
@@ -192,9 +194,22 @@ def spiral_words(surface, h, e, low, high, cut, columns, rows, n1):
         **_turns(tube, across, middle),
         **_balls(tube, needs_general(surface), scale, middle, across, squared),
     }
+    return _words(values), middle, factors
+
+
+def spiral_words(surface, h, e, low, high, cut, columns, rows, n1):
+    """Coordinate words, form words, origin and unit of each axis.
+
+    h, e       ends of the first ray's segment and their change per column and row, local vectors
+    Otherwise as :func:`form_words`.
+    """
+    corners = [(x, y) for x in (0, columns) for y in (0, rows)]
+    points = [v[0] + x * v[1] + y * v[2] for v in (h, e) for x, y in corners]
+    length = max(mp.norm((e[0] - h[0]) + x * (e[1] - h[1]) + y * (e[2] - h[2])) for x, y in corners)
+    words, middle, factors = form_words(surface, points, length, low, high, cut, n1)
     coordinates = []
     for axis, (origin, factor) in enumerate(zip((0, 0, middle), factors, strict=True)):
         for v in (h, e):
             lane = (v[0][axis] - origin, v[1][axis], v[2][axis])
             coordinates += [int(mp.nint(w * factor * mp.ldexp(1, COORD_ACC_WIDTH - 2))) for w in lane]
-    return coordinates, _words(values), (0.0, 0.0, float(middle)), tuple(float(1 / f) for f in factors)
+    return coordinates, words, (0.0, 0.0, float(middle)), tuple(float(1 / f) for f in factors)

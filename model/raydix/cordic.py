@@ -9,6 +9,7 @@ import mpmath as mp
 from .formats import ANGLE_WIDTH, LARGEST_ITERATIONS
 from .kernel import kernel
 
+
 def _angles():
     with mp.workprec(128):
         turn = mp.ldexp(1, ANGLE_WIDTH) / (2 * mp.pi)

@@ -6,7 +6,6 @@ from .formats import COORD_FRAC, FORM_INDEX
 from .item import BOX, C
 from .kernel import kernel
 
-
 LOW = FORM_INDEX["low"]
 HIGH = FORM_INDEX["high"]
 

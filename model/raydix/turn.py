@@ -21,7 +21,7 @@ TURN_DROP = 31 + 26 - TURN_FRAC  # s5p31 times s10p26 to turns
 
 @kernel
 def nearest(rho, z, angle, form, second, general):
-    """Place on the centre curve, in turns (s8p28), of the turn nearest to a point; -1 if none passes the point's azimuth.
+    """Place on the centre curve, in turns (s8p28), of the turn nearest to a point; -1: none passes its azimuth.
 
     rho     K times the distance from the axis, s5p33
     z       K times the height, s2p30

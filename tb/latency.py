@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The latencies of ``rtl/rdx_pkg.sv``, in clocks."""
+
+from raydix.formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS
+
+CERTIFIED = 1  # the mask of rules with which the paper rule is not built
+NORMALIZE = 2
+TURN = 6
+TUBE = LENGTH_ITERATIONS + 6
+VECSUM = ANGLE_ITERATIONS + 1 + TURN + TUBE + 3
+BOUND = 2
+
+
+def phases(points, lanes):
+    """Clocks in which a number of lanes evaluates a number of points."""
+    return -(-points // lanes)
+
+
+def select(n1, rules):
+    """Of rdx_select."""
+    return 1 if rules == CERTIFIED else 2 + (n1 + 2) // 2
+
+
+def cells(n1, degree, halve_stages, lanes):
+    """Of the first part of a step; degree 1: coordinates, evaluator, bounds."""
+    if degree > 1:
+        return n1 * halve_stages
+    return n1 * halve_stages + VECSUM + phases((1 << n1) - 1, lanes) - 1 + BOUND
+
+
+def pick(n1, degree):
+    """From the choice to the chosen cell."""
+    return 1 if degree > 1 else n1
+
+
+def step(n1, degree, halve_stages, lanes, rules):
+    """Of rdx_step."""
+    return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree) + NORMALIZE
