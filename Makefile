@@ -3,14 +3,14 @@
 
 PYTHON ?= python3
 JOBS   ?= 2
-FIGURE2 := scenes/torus.toml scenes/hyperboloid.toml
+FIGURE2 := scenes/torus.toml scenes/hyperboloid.toml scenes/spiral.toml
 MODULE := $(T:rdx_%=%)
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules speed synth clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals speed synth clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -48,6 +48,9 @@ accuracy: $(READY) ## error against float64 roots of the ideal scene, of SCENE= 
 
 rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 	@$(BIN)/python scripts/rules.py $(ARGS)
+
+spirals: $(READY) ## random spirals against dense sampling: missed roots, error of t, steps, bounds (ARGS=)
+	@$(BIN)/python scripts/spirals.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
 	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)

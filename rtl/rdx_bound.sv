@@ -15,7 +15,6 @@
 
 module rdx_bound #(
     parameter  int unsigned N1 = 3,
-    parameter  int unsigned K  = 8,
     localparam int unsigned J  = 1 << N1,
     localparam int unsigned Z  = $clog2(rdx_pkg::Zones)
 ) (
@@ -43,19 +42,16 @@ module rdx_bound #(
     up = bound + 1'b1;
     return |up[BoundWidth-1:VectorWidth+1] ? '1 : up[VectorWidth:0];
   endfunction
-  function automatic bound_t scaled(bound_t bound, logic [4:0] level, int unsigned digits);
-    bound_t result;
-    result = '0;
-    for (int unsigned k = 0; k < K; k++) if (level == 5'(k)) result = bound >> (digits * (k + 1));
-    return result;
+  function automatic bound_t scaled(bound_t bound, logic [4:0] level, logic [6:0] digits);
+    return bound >> (7'(level) + 7'd1) * digits;
   endfunction
   always_ff @(posedge clk_i) begin
     lipschitz_q <= form_i.lipschitz[zone_i];
     curvature_q <= form_i.curvature[zone_i];
     from_level_q <= form_i.from_level[zone_i];
     level_q <= level_i;
-    most_q <= cut(scaled(lipschitz_q, level_q, N1));
-    bend_q <= cut(scaled(curvature_q, level_q, 2 * N1));
+    most_q <= cut(scaled(lipschitz_q, level_q, 7'(N1)));
+    bend_q <= cut(scaled(curvature_q, level_q, 7'(2 * N1)));
     curved_q <= 6'(level_q) >= from_level_q;
   end
 

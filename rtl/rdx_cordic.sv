@@ -5,7 +5,8 @@
 // is turned by half a turn first. x grows by the gain K = prod sqrt(1 + 4^-i), 1.6468.
 //
 // Formats    x_i, y_i, x_o: sWp0 of any fixed point; x_o = K times the length. angle_o: turns, u0p32; with Angle = 0
-//            constant 0 and not built. The length is right to 2^-(2*Iterations) of itself, the angle to 2^-Iterations.
+//            constant 0 and not built. From iteration Still on x stays as it is: it would change by less than an ulp
+//            where 2*Still > W. The length is right to 2^-(2*Iterations) of itself, the angle to 2^-Iterations.
 // Rounding   down, once in x and once in y in each iteration; the table of angles to nearest.
 // Overflow   cannot happen where K times the length is below 2^(W-1).
 // Timing     latency Iterations + 1 clocks in which en_i = 1, one vector a clock; no reset.
@@ -16,6 +17,7 @@
 module rdx_cordic #(
     parameter int unsigned W = 38,
     parameter int unsigned Iterations = 28,
+    parameter int unsigned Still = Iterations,
     parameter bit Angle = 1'b1
 ) (
     input  wire logic                clk_i,
@@ -69,32 +71,52 @@ module rdx_cordic #(
   };
   // END generated: angles
 
-  logic signed [W-1:0] x_q[Iterations+1];
-  logic signed [W-1:0] y_q[Iterations+1];
-  always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      x_q[0] <= x_i < 0 ? -x_i : x_i;
-      y_q[0] <= x_i < 0 && Angle ? -y_i : y_i;
-      for (int unsigned i = 0; i < Iterations; i++) begin
-        x_q[i+1] <= y_q[i] < 0 ? x_q[i] - (y_q[i] >>> i) : x_q[i] + (y_q[i] >>> i);
-        y_q[i+1] <= y_q[i] < 0 ? y_q[i] + (x_q[i] >>> i) : y_q[i] - (x_q[i] >>> i);
-      end
-    end
-  end
-  assign x_o = x_q[Iterations];
-  wire unused = &{1'b0, y_q[Iterations]};
+  // a + b or a - b by one chain of carries: the operand's bits and the carry are turned round together
+  function automatic logic signed [W-1:0] add(logic signed [W-1:0] a, logic signed [W-1:0] b, logic subtract);
+    logic [W:0] sum;
+    sum = {a, 1'b1} + {b ^ {W{subtract}}, subtract};
+    return W'(sum >> 1);
+  endfunction
 
-  if (Angle) begin : gen_angle
-    angle_t angle_q[Iterations+1];
-    always_ff @(posedge clk_i) begin
-      if (en_i) begin
-        angle_q[0] <= {x_i < 0, (AngleWidth - 1)'(0)};
-        for (int unsigned i = 0; i < Iterations; i++) begin
-          angle_q[i+1] <= y_q[i] < 0 ? angle_q[i] - Angles[i] : angle_q[i] + Angles[i];
+  for (genvar i = 0; i <= Iterations; i++) begin : gen_stage
+    // before iteration i the angle is at most atan(2^(1-i)), so y has lost i - 1 bits; three are kept for rounding
+    localparam int unsigned Y = i > 3 ? W + 3 - i : W;
+    logic signed [W-1:0] x_q;
+    logic signed [Y-1:0] y_q;
+    if (i == 0) begin : gen_right_half
+      always_ff @(posedge clk_i) begin
+        if (en_i) begin
+          x_q <= x_i < 0 ? -x_i : x_i;
+          y_q <= x_i < 0 && Angle ? -y_i : y_i;
+        end
+      end
+    end else begin : gen_turn
+      wire signed [W-1:0] x = gen_stage[i-1].x_q;
+      wire signed [W-1:0] y = W'(gen_stage[i-1].y_q);
+      always_ff @(posedge clk_i) begin
+        if (en_i) begin
+          x_q <= i > Still ? x : add(x, y >>> (i - 1), y < 0);
+          y_q <= Y'(add(y, x >>> (i - 1), y >= 0));
         end
       end
     end
-    assign angle_o = angle_q[Iterations];
+  end
+  assign x_o = gen_stage[Iterations].x_q;
+  wire unused = &{1'b0, gen_stage[Iterations].y_q};
+
+  if (Angle) begin : gen_angle
+    for (genvar i = 0; i <= Iterations; i++) begin : gen_sum
+      angle_t angle_q;
+      if (i == 0) begin : gen_half_turn
+        always_ff @(posedge clk_i) if (en_i) angle_q <= {x_i < 0, (AngleWidth - 1)'(0)};
+      end else begin : gen_turn
+        wire below = gen_stage[i-1].y_q < 0;
+        wire [AngleWidth:0] sum = {gen_sum[i-1].angle_q, 1'b1} + {Angles[i-1] ^ {AngleWidth{below}}, below};
+        always_ff @(posedge clk_i) if (en_i) angle_q <= sum[AngleWidth:1];
+        wire unused_carry = sum[0];
+      end
+    end
+    assign angle_o = gen_sum[Iterations].angle_q;
   end else begin : gen_length
     assign angle_o = '0;
   end

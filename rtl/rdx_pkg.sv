@@ -46,6 +46,8 @@ package rdx_pkg;
   localparam int unsigned TurnFrac = 28;
   // of the CORDIC that finds radius and azimuth
   localparam int unsigned AngleIterations = 28;
+  // iteration of it from which on the radius stays as it is
+  localparam int unsigned AngleStill = 20;
   // of the CORDICs that find a length only
   localparam int unsigned LengthIterations = 16;
   // of the distance from the axis, each with bounds of its own

@@ -109,8 +109,7 @@ module rdx_sample #(
     for (int unsigned j = 1; j < J; j++) values[j] = new_values[j-1];
   end
   rdx_bound #(
-      .N1(N1),
-      .K (K)
+      .N1(N1)
   ) u_bound (
       .clk_i,
       .form_i,

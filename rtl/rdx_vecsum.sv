@@ -3,14 +3,14 @@
 //
 // Radius and azimuth of the point, then the nearest turn and the distance from its tube, beside it the distance from
 // the ball at the (nearer) end: the least of them is the indicator. Its magnitude is limited to what bounds its change:
-// at most half of 1.5 K times the distance from the axis, at least the guard less the whole of it (docs/method.md).
+// at most half of 1.5 K times the distance from the axis, at least the guard less the whole of it (docs/spirals.md).
 //
 // Formats    point_i: x, y, z in s2p30, z carries K. value_o: K^2 times the indicator, s5p33; positive outside.
 //            form_i is constant while points are under way.
 // Rounding   that of the parts.    Overflow   cannot happen: compile scales the scene.
 // Timing     latency rdx_pkg::VecsumLatency clocks in which en_i = 1, one point a clock.
 // Reset      of the waiting lines' places only.
-// Error      docs/method.md, "Error of the evaluator"
+// Error      docs/spirals.md, "Error of the evaluator"
 // Model      model/raydix/vecsum.py (evaluate)
 `default_nettype none
 
@@ -37,6 +37,7 @@ module rdx_vecsum #(
   rdx_cordic #(
       .W(VectorWidth),
       .Iterations(AngleIterations),
+      .Still(AngleStill),
       .Angle(1'b1)
   ) u_polar (
       .clk_i,

@@ -60,6 +60,14 @@ POINTS = {
     "step-d2": Point("rdx_step", {"N1": 3, "K": 8, "W": 36, "D": 2, "Rules": 1}),
     "step-n1": Point("rdx_step", {"N1": 1, "K": 24, "W": 36, "D": 4, "Rules": 1}),
     "product": Point("rdx_product", {"W": 36, "D": 4}),
+    "cordic": Point("rdx_cordic", {"W": 38, "Iterations": 28, "Angle": 1}),
+    "cordic-length": Point("rdx_cordic", {"W": 38, "Iterations": 16, "Angle": 0}),
+    "vecsum": Point("rdx_vecsum", {"General": 0}),
+    "vecsum-general": Point("rdx_vecsum", {"General": 1}),
+    "step-vector-n1": Point("rdx_step", {"N1": 1, "K": 24, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
+    "step-vector-n2": Point("rdx_step", {"N1": 2, "K": 12, "W": 38, "D": 1, "Rules": 1, "Lanes": 3}),
+    "step-vector-lane": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
+    "step-vector": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 7}, slow=True),
     "core": Point("rdx_core", {"N1": 3, "K": 8, "W": 36, "D": 4, "U": 1, "Rules": 1}, slow=True),
 }
 

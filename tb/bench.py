@@ -293,7 +293,7 @@ class Port:
 
     def words(self, value):
         """``value`` as unsigned integers, one for each element; None where an element does not matter."""
-        if self.struct:
+        if self.struct and value is not None:
             value = self.struct.pack(value)
         values = list(_flat_list(value)) if isinstance(value, list | tuple) else [value]
         assert len(values) == len(self.handles), f"{self.name}: {len(values)} values for {len(self.handles)} elements"

@@ -19,7 +19,7 @@ from raydix.vecsum import new_lanes
 
 MIXED, HELICES = "mixed", "helices"  # of tb/scenes
 HELIX = (("spiral", 0), (HELICES, 0), (HELICES, 2))  # scene, surface: what the evaluator without General does
-GENERAL = (("shell", 0), ("flat_spiral", 0), (MIXED, 1), (MIXED, 3), (HELICES, 0))  # and what the other does, too
+GENERAL = (("shell", 0), ("flat_spiral", 0), (MIXED, 0), (MIXED, 3), (HELICES, 0))  # and what the other does, too
 
 
 def load(name, width, height):

@@ -5,22 +5,22 @@ import cocotb
 from cocotb.triggers import FallingEdge, with_timeout
 
 import bench
+import spirals
 import streams
 import streams_extra
 from raydix.compile import compile_scene, descriptor_array
 from raydix.config import RULES, Config
 from raydix.golden import trace_golden
-from raydix.rtl import ROOT, parameters
-from raydix.scene import load_scene
+from raydix.rtl import parameters
 
-CONFIG = Config(n1=2, steps=6, width=36, degree=4, units=2, rules="both")
+CONFIG = Config(n1=2, steps=6, width=36, degree=4, units=2, rules="both", vecsum="general", lanes=2)
 NAMES = ("surface", "x", "y", "hit", "last", "t", "depth", "point", "steps")
 SIGNED = ("depth", "point")
 
 
 def compiled_frame(scene, rule="certified"):
-    """Words of a scene of ``scenes/`` in 16 x 12 pixels."""
-    return compile_scene(load_scene(ROOT / "scenes" / f"{scene}.toml", 16, 12), CONFIG.with_(rule=rule))
+    """Words of a scene of ``scenes/`` or ``tb/scenes/`` in 16 x 12 pixels."""
+    return compile_scene(spirals.load(scene, 16, 12), CONFIG.with_(rule=rule))
 
 
 def record(words):
@@ -61,7 +61,7 @@ def compare(frame, received):
 
 
 async def render(dut, random, frame, idle, stall):
-    """Feed the frame's descriptors, take records until every ray has left its last one."""
+    """Feed the frame's descriptors, take records until every ray has left its last one; the records."""
     rays = sum(hits.steps.size for hits in frame.surfaces)
     words = descriptor_array(frame.compiled).tolist()
     sink = streams_extra.sink(dut, random, stall, "hit_", {f"hit_{name}_o": None for name in NAMES})
@@ -79,11 +79,13 @@ async def render(dut, random, frame, idle, stall):
 
     await with_timeout(cocotb.start_soon(finished()), 10 * (5000 + 100 * rays), "ns")
     task.cancel()
-    compare(frame, [record(words) for words in sink.received])
+    received = [record(words) for words in sink.received]
+    compare(frame, received)
+    return received
 
 
 @cocotb.test
-@cocotb.parametrize(scene=("torus", "gallery", "glass"), rule=RULES)
+@cocotb.parametrize(scene=("torus", "gallery", "glass", spirals.MIXED), rule=RULES)
 async def equals_golden(dut, scene, rule):
     """All records of a frame are the golden model's arrays, with stalls at both ports."""
     random = bench.rng(f"{scene} {rule}")
@@ -92,20 +94,25 @@ async def equals_golden(dut, scene, rule):
     await bench.start(dut)
     frame = trace_golden(compiled_frame(scene, rule), CONFIG.with_(rule=rule))
     assert frame.counts()["hits"] > 10
-    await render(dut, random, frame, 0.3, 0.5 if scene == "glass" else 0.2)
+    if scene == spirals.MIXED:  # every surface is seen, behind each other the constants of three spirals are loaded
+        assert [hits.surface.is_vector_sum for hits in frame.surfaces] == [True, False, True, True]
+        assert all((hits.t >= 0).any() for hits in frame.surfaces)
+    order = [r["surface"] for r in await render(dut, random, frame, 0.3, 0.5 if scene == "glass" else 0.2)]
+    if scene == spirals.MIXED:  # both rings give records at the same time
+        assert order.index(1) < len(order) - order[::-1].index(0)
 
 
 @cocotb.test
 async def without_stalls(dut):
-    """The same with ports that are always ready, two frames behind each other."""
+    """The same with ports that are always ready, frames behind each other."""
     random = bench.rng()
     dut.desc_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    for scene in ("torus", "glass"):
+    for scene in ("torus", spirals.MIXED, "glass"):
         await render(dut, random, trace_golden(compiled_frame(scene), CONFIG), 0.0, 0.0)
 
 
 def test_core():
-    """Quartics and quadrics, boxes, one root and all, both rules."""
+    """Quartics, quadrics and spirals, boxes, one root and all, both rules."""
     bench.run(__name__, "rdx_core", parameters(CONFIG))

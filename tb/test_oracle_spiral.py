@@ -171,13 +171,13 @@ def test_helix_along_its_seam(y):
 
 def test_chord_ends_count():
     """Roots outside of the chord are none, and its ends add to the clearance where they are near."""
-    for x, wanted in ((0.95 + 1e-7, 0), (0.95 - 1e-7, 1)):
-        roots, clearance = one(spiral(**RING), (2.0, 0.0, 0.0), (x, 0.0, 0.0))
-        assert len(roots) == wanted
-        assert clearance == pytest.approx(1e-7, rel=1e-6)
-        roots, clearance = one(spiral(**RING), (x, 0.0, 0.0), (2.0, 0.0, 0.0))
-        assert len(roots) == wanted
-        assert clearance == pytest.approx(1e-7, rel=1e-6)
+    for epsilon in (1e-3, 1e-7, 1e-12):
+        for side, wanted in ((1, 0), (-1, 1)):
+            outside, rim = (2.0, 0.0, 0.0), (0.95 + side * epsilon, 0.0, 0.0)
+            for h, e in ((outside, rim), (rim, outside)):
+                roots, clearance = one(spiral(**RING), h, e)
+                assert len(roots) == wanted
+                assert clearance == pytest.approx(epsilon, rel=1e-6, abs=2e-16)
     assert one(spiral(**RING), (2.0, 0.0, 0.0), (1.1, 0.0, 0.0)) == (pytest.approx([]), np.inf)
     assert one(spiral(**RING), (0.0, 0.0, 2.0), (1e9, 0.0, 2.0))[1] == np.inf
 
@@ -234,19 +234,34 @@ def test_value(name):
     assert spiral_value(shape, points[0]).shape == ()
 
 
-@pytest.mark.parametrize("name", GROWN)
-def test_denser_sampling_finds_nothing_more(name, monkeypatch):
-    """A twentieth of the spacing: the same roots on 3000 chords, and the same clearance where it is small."""
-    shape = spiral(**GROWN[name])
-    h, e = chords(shape, 3000, 5)
+def assert_denser_is_no_better(monkeypatch, shape, h, e):
+    """With a twentieth of the spacing there are the same roots, and the same clearance where it is small."""
     roots, clearance = spiral_chord_roots(shape, h, e)
     plain = oracle_spiral.tube(shape)
     monkeypatch.setattr(oracle_spiral, "tube", lambda _: plain._replace(spacing=plain.spacing / 20))
     more, finer = spiral_chord_roots(shape, h, e)
     assert np.array_equal(counted(roots), counted(more))
-    assert np.nanmax(np.abs(roots - more)) < 1e-12
+    assert np.nanmax(np.abs(roots - more)) < 1e-11
     near = np.minimum(clearance, finer) < 3e-3 * shape.r
-    assert near.sum() >= 3 and np.abs(clearance[near] - finer[near]).max() < 1e-12
+    assert near.sum() >= 3 and np.abs(clearance[near] - finer[near]).max() < 1e-11
+
+
+@pytest.mark.parametrize("name", GROWN)
+def test_denser_sampling_finds_nothing_more(name, monkeypatch):
+    """A twentieth of the spacing on 3000 chords."""
+    shape = spiral(**GROWN[name])
+    assert_denser_is_no_better(monkeypatch, shape, *chords(shape, 3000, 5))
+
+
+def test_past_the_axis(monkeypatch):
+    """A tall screw that leaves a hole of R / 100, and chords that pass its axis at about that distance."""
+    shape = spiral(R=1.0, r=0.99, pitch=30.0, turns=0.7)
+    dice, count = np.random.default_rng(7), 4000
+    across, phase = 0.01 * 10 ** dice.uniform(-0.5, 1, count), dice.uniform(0, 2 * np.pi, count)
+    middle = np.stack([across * np.cos(phase), across * np.sin(phase), dice.uniform(0, 21, count)], axis=-1)
+    rise = 30 * dice.normal(size=count) * 10 ** dice.uniform(-2, 1, count)
+    ahead = np.stack([-np.sin(phase), np.cos(phase), rise], axis=-1)
+    assert_denser_is_no_better(monkeypatch, shape, middle - ahead, middle + ahead)
 
 
 @pytest.mark.parametrize("name", GROWN)
@@ -329,6 +344,14 @@ def test_clearance_at_the_clip_box():
         hits = oracle.ideal_hits(scene(upright(clip), **along((0.75, 0.0))), 0)
         assert hits.count[0, 0] == wanted
         assert hits.clearance[0, 0] == pytest.approx(1e-7 / 0.175, rel=1e-4)
+
+
+def test_extrema_outside_the_clip_box():
+    """A ray that touches the ring outside of the box is as far from another count as the touch is from the box."""
+    clip = ((-0.6965, -1.0, -1.0), (0.6965, 1.0, 1.0))
+    hits = oracle.ideal_hits(scene(spiral(clip, **RING), **along((0.0, 0.25 + 1e-9))), 0)
+    assert hits.count[0, 0] == 0
+    assert hits.clearance[0, 0] == pytest.approx(0.7 / 0.6965 - 1, rel=1e-3)
 
 
 def test_frame_of_several_surfaces():

@@ -6,11 +6,13 @@ import pytest
 
 import bench
 from raydix.cells import subdivide
-from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH
+from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, FORM_INDEX, FORM_WORDS
 from raydix.item import BOX, SIZE, C
-from raydix.outside import beyond, outside_cells
+from raydix.outside import beyond, outside_cells, outside_faces
 
 LEAST, MOST = bench.low(COORD_WIDTH), bench.high(COORD_WIDTH)
+BOX_CHECKS = ["equals_model", "cells_of_an_item", "equals_intervals"]
+FACES_CHECKS = ["faces_equal_intervals", "faces_equal_model"]
 
 
 def edges(box):
@@ -98,7 +100,83 @@ async def equals_intervals(dut):
                     raise bench.mismatch(number, dict(start=start, end=end, box=box), [f"meets the box: {touches}"])
 
 
+def packed(values):
+    """Three coordinates as one word."""
+    return sum((v & (1 << COORD_WIDTH) - 1) << COORD_WIDTH * i for i, v in enumerate(values))
+
+
+def random_faces(random):
+    """(low, high) of each axis: any, the whole range, thin, a single coordinate."""
+    faces = []
+    for _ in range(3):
+        low, high = sorted(random.choice((LEAST, MOST, -1, 0, 1, random.randint(LEAST, MOST))) for _ in range(2))
+        faces.append(random.choice(((low, high), (low, high), (LEAST, MOST), (low, min(MOST, low + 1)), (low, low))))
+    return faces
+
+
+def about(random, low, high):
+    """A coordinate at a face of (low, high) or beside it, or an extreme, or any."""
+    value = random.choice((low, high)) + random.choice((-1, 0, 1))
+    return random.choice((max(LEAST, min(MOST, value)), value if LEAST <= value <= MOST else low, LEAST, MOST,
+                          random.randint(LEAST, MOST)))  # fmt: skip
+
+
+@cocotb.test
+async def faces_equal_intervals(dut):
+    """Bit j is set if on some axis no point between the ends of cell j, both included, lies in [low, high]."""
+    random, count = bench.rng("faces"), len(bench.Port(dut, "outside_o").handles[0]) + 1
+
+    def items():
+        for _ in range(4000):
+            faces, axis = random_faces(random), random.randrange(3)
+            inside = [[random.randint(*pair) for _ in range(count)] for pair in faces]
+            anywhere = [[about(random, *pair) for _ in range(count)] for pair in faces]
+            values = random.choice((anywhere, [anywhere[i] if i == axis else inside[i] for i in range(3)]))
+            lows, highs = zip(*faces, strict=True)
+            yield dict(boundaries_i=values, low_i=packed(lows), high_i=packed(highs), box_i=random.getrandbits(15))
+
+    def expect(item):
+        mask = 0
+        for axis, values in enumerate(item["boundaries_i"]):
+            low, high = (bench.signed(item[n] >> COORD_WIDTH * axis, COORD_WIDTH) for n in ("low_i", "high_i"))
+            for j, (start, end) in enumerate(zip(values, values[1:], strict=False)):
+                meets = min(start, end) <= high and max(start, end) >= low
+                mask |= (not meets) << j
+        return {"outside_o": mask}
+
+    await bench.pipeline(dut, items(), expect, 0)
+
+
+@cocotb.test
+async def faces_equal_model(dut):
+    """The model's mask for an item is this module's for the boundaries of its cells."""
+    random = bench.rng("faces of an item")
+    n1 = len(bench.Port(dut, "outside_o").handles[0]).bit_length() - 1
+    masks, items = [], []
+    for _ in range(1000):
+        item, form, faces, boundaries = [0] * SIZE, [0] * FORM_WORDS, random_faces(random), []
+        for axis, (low, high) in enumerate(faces):
+            form[FORM_INDEX["low"] + axis], form[FORM_INDEX["high"] + axis] = low, high
+            ends = [about(random, low, high) for _ in range(2)]
+            item[C + axis], item[C + 3 + axis] = ends
+            cells = ends + [0] * ((1 << n1) - 1)
+            subdivide(cells, 1, n1)
+            boundaries.append(cells)
+        masks.append(outside_faces(item, [0] * ((1 << n1) + 1), form, n1))
+        lows, highs = zip(*faces, strict=True)
+        items.append(dict(boundaries_i=boundaries, low_i=packed(lows), high_i=packed(highs), box_i=0))
+    assert 0 in masks and (1 << (1 << n1)) - 1 in masks
+    order = iter(masks)
+    await bench.pipeline(dut, items, lambda item: {"outside_o": next(order)}, 0)
+
+
 @pytest.mark.parametrize("parameters", [dict(J=1), dict(J=8)], ids=bench.label)
 def test_outside(parameters):
     """One cell, as for the hit point; the cells of a step."""
-    bench.run(__name__, "rdx_outside", parameters)
+    bench.run(__name__, "rdx_outside", parameters, BOX_CHECKS)
+
+
+@pytest.mark.parametrize("parameters", [dict(J=1, Faces=1), dict(J=8, Faces=1)], ids=bench.label)
+def test_faces(parameters):
+    """The same for a box of any faces."""
+    bench.run(__name__, "rdx_outside", parameters, FACES_CHECKS)

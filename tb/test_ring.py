@@ -6,21 +6,42 @@ import pytest
 from cocotb.triggers import FallingEdge, ReadOnly, SimTimeoutError, with_timeout
 
 import bench
+import latency
+import spirals
 import streams
+from raydix.ends import ends
+from raydix.formats import COORD_FRAC, VECTOR_WIDTH
 from raydix.item import BOX, DEPTH, HIT, PAPER, ROOTS, SIZE, STATUS, STEPS, B, C
 from raydix.kernel import words, zeros
 from raydix.ring import trace
+from raydix.step import new_work
+from raydix.vecsum import new_lanes
 
 CERTIFIED, PAPER_RULE, BOTH = 1, 2, 3
 
 
 class Shape:
-    """Parameters of the ring at hand."""
+    """Parameters of the ring at hand; for vector sums (D = 1) a surface, whose constants go to the port."""
 
-    def __init__(self, dut):
-        names = ("N1", "K", "W", "D", "U", "Rules")
-        self.n1, self.steps, self.width, self.degree, self.units, self.rules = (bench.parameter(dut, n) for n in names)
+    def __init__(self, dut, random):
+        names = ("N1", "K", "W", "D", "U", "Rules", "Lanes", "General")
+        self.n1, self.steps, self.width, self.degree, self.units, self.rules, lanes, self.general = (
+            bench.parameter(dut, n) for n in names
+        )
         self.slots = bench.parameter(dut, "Slots")
+        self.phases = latency.phases((1 << self.n1) - 1, lanes) if self.degree == 1 else 1
+        self.turn = self.slots * self.phases  # clocks
+        self.work = new_work(self.n1, self.degree)
+        self.records = {}  # of rays seen
+        if self.degree == 1:
+            found = spirals.surface(*random.choice(spirals.GENERAL if self.general else spirals.HELIX), self.n1)
+            self.form = spirals.form(found)
+            self.plain = []
+            self.firsts = [first for _, _, _, first in spirals.rays(found)]
+            bench.Port(dut, "form_i", bench.FORM).write(bench.form_fields(self.form))
+        else:
+            self.form = None
+            dut.form_i.value = 0
 
 
 def bernstein(roots, degree, width, sign):
@@ -37,8 +58,42 @@ def bernstein(roots, degree, width, sign):
     return [max(bench.low(width), min(bench.high(width), round(v * scale))) for v in b]
 
 
+def random_request(random, shape, number):
+    """A ray with a number of its own that asks for anything."""
+    return {
+        "surface": random.getrandbits(6),
+        "x": number & 0xFFF,
+        "y": number >> 12,
+        "paper": {CERTIFIED: 0, PAPER_RULE: 1, BOTH: random.getrandbits(1)}[shape.rules],
+        "roots": random.randint(1, 4),
+        "box": [random.choice((0, 0, 0, 0, 1, 2, 7, 20)) for _ in range(3)],
+    }
+
+
+def segment_of(first, degree):
+    """Fields of a first segment of the model."""
+    fields = {"start": first[C : C + 3].tolist(), "stop": first[C + 3 : C + 6].tolist()}
+    fields |= {"depth_start": first[DEPTH], "depth_stop": first[DEPTH + 1], "b": first[B : B + degree + 1].tolist()}
+    return fields
+
+
+def random_chord(random, shape):
+    """First segment of a ray of the surface's frame, from either end; or between any two points within reach."""
+    first = random.choice(shape.firsts).copy()
+    reach = 7 << COORD_FRAC - 2
+    kind = random.random()
+    if kind < 0.2:
+        first[C : C + 6] = words(random.randint(-reach, reach) for _ in range(6))
+    elif kind < 0.4:
+        first[C : C + 3], first[C + 3 : C + 6] = first[C + 3 : C + 6].copy(), first[C : C + 3].copy()
+    ends(first, new_lanes(2), shape.form, shape.general)
+    return segment_of(first, 1)
+
+
 def random_ray(random, shape, number):
     """A ray and its first segment: 0 to D roots, some close to each other, or any control points; with boxes."""
+    if shape.degree == 1:
+        return random_request(random, shape, number), random_chord(random, shape)
     kind = random.random()
     if kind < 0.6:
         at = random.random()
@@ -53,15 +108,7 @@ def random_ray(random, shape, number):
         b = [
             random.choice((bench.low(shape.width), bench.high(shape.width), 0, 1, -1)) for _ in range(shape.degree + 1)
         ]
-    by_paper = {CERTIFIED: 0, PAPER_RULE: 1, BOTH: random.getrandbits(1)}[shape.rules]
-    ray = {
-        "surface": random.getrandbits(6),
-        "x": number & 0xFFF,
-        "y": number >> 12,
-        "paper": by_paper,
-        "roots": random.randint(1, 4),
-        "box": [random.choice((0, 0, 0, 0, 1, 2, 7, 20)) for _ in range(3)],
-    }
+    ray = random_request(random, shape, number)
     coordinate = (bench.low(32), bench.high(32), *(random.randint(bench.low(32), bench.high(32)) for _ in range(6)))
     segment = {
         "start": [random.choice(coordinate) for _ in range(3)],
@@ -76,9 +123,16 @@ def random_ray(random, shape, number):
 def plain_ray(random, shape, number):
     """A ray with one root and nothing pending: linear, no box. It takes K steps and never restarts."""
     ray, segment = random_ray(random, shape, number)
+    ray |= {"paper": shape.rules == PAPER_RULE, "roots": 1, "box": [0, 0, 0]}
+    if shape.degree == 1:  # a few that do it, over and over
+        while len(shape.plain) < 12:
+            if [(r["hit"], r["steps"]) for r in model(shape, ray, segment)] == [(1, shape.steps)]:
+                shape.plain.append(segment)
+            segment = random_chord(random, shape)
+        return ray, random.choice(shape.plain)
     first, last = -random.randint(1 << 8, bench.high(shape.width)), random.randint(1 << 8, bench.high(shape.width))
     segment["b"] = [first + (last - first) * i // shape.degree for i in range(shape.degree + 1)]
-    return {**ray, "paper": shape.rules == PAPER_RULE, "roots": 1, "box": [0, 0, 0]}, segment
+    return ray, segment
 
 
 def known_ray(random, shape, number, count):
@@ -90,18 +144,26 @@ def known_ray(random, shape, number, count):
 
 def model(shape, ray, segment):
     """The records that the ray leaves, in order."""
+    key = repr((ray, segment))
+    if key not in shape.records:
+        shape.records[key] = trace_by_model(shape, ray, segment)
+    return shape.records[key]
+
+
+def trace_by_model(shape, ray, segment):
+    """The same, not looked up."""
     records = []
     first = zeros(SIZE)
     first[C : C + 6] = words([*segment["start"], *segment["stop"]])
     first[DEPTH : DEPTH + 2] = words([segment["depth_start"], segment["depth_stop"]])
     first[B : B + shape.degree + 1] = words(segment["b"])
-    cells, nodes = zeros((shape.degree << shape.n1) + 1), zeros((shape.n1 + 1) * (shape.degree + 1))
+    fixed = shape.work, shape.n1, shape.steps, shape.width, shape.degree, shape.general
 
     def follow(roots):
         item, t, depth, point = zeros(SIZE), zeros(4), zeros(4), zeros(12).reshape(4, 3)
         item[PAPER], item[ROOTS] = ray["paper"], roots
         item[BOX : BOX + 3] = words(ray["box"])
-        hits = trace(item, first, cells, nodes, shape.n1, shape.steps, shape.width, shape.degree, t, depth, point, 0)
+        hits = trace(item, first, shape.form, *fixed, t, depth, point, 0)
         return item, hits, t, depth, point
 
     place = {name: ray[name] for name in ("surface", "x", "y")}
@@ -121,12 +183,12 @@ RATES = (0.0, 0.3, 0.8)
 PORTS = dict(prefix="ray_", data=("ray_i", "segment_i"))
 
 
-async def start(dut):
+async def start(dut, random):
     """Clock and reset, with both ports at rest; the shape."""
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    return Shape(dut)
+    return Shape(dut, random)
 
 
 def feed(dut, shape, rays, random, idle=0.0):
@@ -164,7 +226,7 @@ async def all_taken(shape, rays, sink, task):
     """Wait for the sink's task, not for ever, and compare what it has received."""
     complete = True
     try:
-        await with_timeout(task, 10 * (2000 + 8 * len(rays) * shape.slots), "ns")
+        await with_timeout(task, 10 * (2000 + 8 * len(rays) * shape.turn), "ns")
     except SimTimeoutError:
         complete = False
     compare(shape, rays, sink.received)
@@ -176,7 +238,7 @@ async def trace_all(dut, shape, rays, random, idle, stall):
     count = sum(len(model(shape, *ray)) for ray in rays)
     sink = hit_sink(dut, random, stall)
     feed(dut, shape, rays, random, idle)
-    await all_taken(shape, rays, sink, cocotb.start_soon(sink.take(count, quiet=2 * shape.slots)))
+    await all_taken(shape, rays, sink, cocotb.start_soon(sink.take(count, quiet=2 * shape.turn)))
     return sink
 
 
@@ -184,12 +246,18 @@ async def trace_all(dut, shape, rays, random, idle, stall):
 @cocotb.parametrize(idle=RATES, stall=RATES)
 async def equals_model(dut, idle, stall):
     """The records of each ray are the model's, in order of t, `last` once: none lost, none twice."""
-    shape = await start(dut)
     random = bench.rng(f"{idle} {stall}")
-    rays = [known_ray(random, shape, count, count) for count in range(shape.degree + 1)]
-    for count, ray in enumerate(rays):
-        assert sum(r["hit"] for r in model(shape, *ray)) == count
-    rays += [random_ray(random, shape, number) for number in range(len(rays), 70)]
+    shape = await start(dut, random)
+    if shape.degree == 1:
+        rays, wanted = [], {0, 1, 2}
+        while wanted or len(rays) < 50:
+            rays.append(random_ray(random, shape, len(rays)))
+            wanted.discard(sum(r["hit"] for r in model(shape, *rays[-1])))
+    else:
+        rays = [known_ray(random, shape, count, count) for count in range(shape.degree + 1)]
+        for count, ray in enumerate(rays):
+            assert sum(r["hit"] for r in model(shape, *ray)) == count
+        rays += [random_ray(random, shape, number) for number in range(len(rays), 70)]
     random.shuffle(rays)
     await trace_all(dut, shape, rays, random, idle, stall)
 
@@ -197,21 +265,22 @@ async def equals_model(dut, idle, stall):
 @cocotb.test
 async def full_and_stalled(dut):
     """The sink stalls for hundreds of clocks, the ring fills up and takes no ray; then everything comes out."""
-    shape = await start(dut)
     random = bench.rng()
+    shape = await start(dut, random)
     rays = [random_ray(random, shape, number) for number in range(shape.slots + 40)]
     sink = hit_sink(dut, random, 1.0)
     feed(dut, shape, rays, random)
-    task = cocotb.start_soon(sink.take(sum(len(model(shape, *ray)) for ray in rays), quiet=2 * shape.slots))
+    task = cocotb.start_soon(sink.take(sum(len(model(shape, *ray)) for ray in rays), quiet=2 * shape.turn))
     idle_since = clock = 0
     # in three turns and the steps of the longest search every place is taken by a ray that waits for the sink
-    while clock - idle_since < 300 + 3 * shape.slots:
+    search = shape.turn * (-(-shape.steps // shape.units) if shape.degree == 1 else 1)
+    while clock - idle_since < 300 + 3 * search:
         await ReadOnly()
         if dut.ray_ready_o.value == 1:
             idle_since = clock
         clock += 1
         await FallingEdge(dut.clk_i)
-        assert clock < 200 * shape.slots, "the ring does not fill up"
+        assert clock < 200 * shape.turn, "the ring does not fill up"
     assert not sink.received and dut.hit_valid_o.value == 1 and dut.ray_valid_i.value == 1
     for stall, clocks in ((0.0, 3), (1.0, 300), (0.0, 30), (0.9, 400), (0.0, 0)):
         sink.stall = stall
@@ -223,12 +292,12 @@ async def full_and_stalled(dut):
 @cocotb.test
 async def reset_empties(dut):
     """A reset in the middle of work: the ring is empty, takes a new ray after one turn, and works."""
-    shape = await start(dut)
     random = bench.rng()
+    shape = await start(dut, random)
     dut.hit_ready_i.value = 0
     old = [random_ray(random, shape, 3000 + number) for number in range(2 * shape.slots)]
     task = feed(dut, shape, old, random)
-    for _ in range(random.randint(3, 6) * shape.slots):
+    for _ in range(random.randint(3, 6) * shape.turn):
         await FallingEdge(dut.clk_i)
     assert dut.hit_valid_o.value == 1  # there is work in it
     task.cancel()
@@ -242,9 +311,10 @@ async def reset_empties(dut):
     while dut.ray_ready_o.value == 0:
         await FallingEdge(dut.clk_i)
         clocks += 1
-    assert clocks == shape.slots, f"the first ray is taken after {clocks} clocks, documented: {shape.slots}"
-    for _ in range(5 * shape.slots):  # nothing of before comes out, every place is empty
-        assert dut.hit_valid_o.value == 0 and dut.ray_ready_o.value == 1
+    turn = shape.turn + (shape.phases > 1)
+    assert clocks == turn, f"the first ray is taken after {clocks} clocks, documented: {turn}"
+    for clock in range(5 * shape.turn):  # nothing of before comes out, every place is empty
+        assert dut.hit_valid_o.value == 0 and dut.ray_ready_o.value == (clock % shape.phases == 0)
         await FallingEdge(dut.clk_i)
     rays = [random_ray(random, shape, number) for number in range(40)]
     await trace_all(dut, shape, rays, random, 0.0, 0.2)
@@ -252,9 +322,12 @@ async def reset_empties(dut):
 
 @cocotb.test
 async def throughput(dut):
-    """Rays of K steps without a restart take ceil(K/U) turns of the ring; with U = K one is taken every clock."""
-    shape = await start(dut)
+    """Rays of K steps without a restart take ceil(K/U) turns of the ring; with U = K one is taken every clock.
+
+    Vector sums on few lanes: a place every Phases clocks.
+    """
     random = bench.rng()
+    shape = await start(dut, random)
     rays = [plain_ray(random, shape, number) for number in range(3 * shape.slots)]
     for ray in rays:
         assert [(r["hit"], r["steps"]) for r in model(shape, *ray)] == [(1, shape.steps)]
@@ -262,13 +335,13 @@ async def throughput(dut):
     while dut.ray_ready_o.value == 0:
         await FallingEdge(dut.clk_i)
     sink = await trace_all(dut, shape, rays, random, 0.0, 0.0)
-    turns = -(-shape.steps // shape.units)
+    turns, places = -(-shape.steps // shape.units), shape.slots
     first = sink.transfers[0]
-    assert first == turns * shape.slots  # from the clock that takes the first ray on
+    assert first == turns * shape.turn  # from the clock that takes the first ray on
     # as many rays as there are places come out one after the other, and their places are taken in the same moment
-    expected = [first + (i // shape.slots) * turns * shape.slots + i % shape.slots for i in range(len(rays))]
-    assert sink.transfers == expected, f"{turns} turns of {shape.slots} clocks; hits at {sink.transfers}"
-    if shape.units == shape.steps:
+    expected = [first + (i // places) * turns * shape.turn + i % places * shape.phases for i in range(len(rays))]
+    assert sink.transfers == expected, f"{turns} turns of {shape.turn} clocks; hits at {sink.transfers}"
+    if shape.units == shape.steps and shape.phases == 1:
         assert expected == list(range(first, first + len(rays)))  # a ray a clock
     assert [r["x"] for r in sink.received] == [ray["x"] for ray, _ in rays]  # nobody overtakes here
 
@@ -285,3 +358,16 @@ CASES = [
 def test_ring(parameters):
     """One shared unit, the full pipeline, and in between; each rule alone and both."""
     bench.run(__name__, "rdx_ring", parameters)
+
+
+VECTOR_CASES = [
+    dict(N1=3, K=8, U=1, Rules=BOTH, Lanes=7, General=0),
+    dict(N1=2, K=5, U=2, Rules=CERTIFIED, Lanes=1, General=1),
+    dict(N1=3, K=4, U=2, Rules=PAPER_RULE, Lanes=3, General=0),
+]
+
+
+@pytest.mark.parametrize("parameters", VECTOR_CASES, ids=bench.label)
+def test_ring_of_vector_sums(parameters):
+    """All lanes and one unit; one lane; some lanes, where the turn needs places that hold no item."""
+    bench.run(__name__, "rdx_ring", dict(W=VECTOR_WIDTH, D=1, HalveStages=1) | parameters)

@@ -7,19 +7,22 @@ import cocotb
 import pytest
 
 import bench
+from raydix.bound import bounded
 from raydix.cells import subdivide
+from raydix.formats import FORM_INDEX, FORM_WORDS, VECTOR_WIDTH, ZONES
 from raydix.select import certified, changes, mixed, paper
 
 CERTIFIED, PAPER, BOTH = 1, 2, 3
 
 
-def candidates(cells, excluded, last, by_paper, degree, n1):
-    """Mask of the candidates by the model's tests of a cell."""
+def candidates(cells, excluded, last, by_paper, degree, n1, possible=0):
+    """Mask of the candidates by the model's tests of a cell; ``possible``: of those that a bound does not exclude."""
     count = 1 << n1
     if by_paper:
         return paper(cells, excluded, degree, count)
     test = changes if last else mixed
-    return sum(1 << j for j in range(count) if test(cells, j * degree, degree)) & ~excluded
+    mask = sum(1 << j for j in range(count) if test(cells, j * degree, degree))
+    return (mask if last else mask | possible) & ~excluded
 
 
 def first_two(mask):
@@ -47,7 +50,9 @@ def flags(random, cells, n1):
     """Inputs beside the control points: nothing excluded, everything, or any mask; both rules; last level or not."""
     j = 1 << n1
     excluded = random.choice((0, 0, (1 << j) - 1, (1 << random.randrange(j)) - 1, random.getrandbits(j)))
-    return dict(cells_i=cells, excluded_i=excluded, last_i=random.getrandbits(1), paper_i=random.getrandbits(1))
+    possible = random.choice((0, 0, (1 << j) - 1, 1 << random.randrange(j), random.getrandbits(j)))
+    request = dict(possible_i=possible, last_i=random.getrandbits(1), paper_i=random.getrandbits(1))
+    return dict(cells_i=cells, excluded_i=excluded) | request
 
 
 async def equal(dut, items):
@@ -56,7 +61,8 @@ async def equal(dut, items):
 
     def expect(item):
         by_paper = rules == PAPER or (rules == BOTH and item["paper_i"])
-        mask = candidates(item["cells_i"], item["excluded_i"], item["last_i"], by_paper, degree, n1)
+        last, possible = item["last_i"], item["possible_i"]
+        mask = candidates(item["cells_i"], item["excluded_i"], last, by_paper, degree, n1, possible)
         pick, following = first_two(mask)
         outputs = {"found_o": pick is not None, "more_o": following is not None}
         return outputs | {"pick_o": [pick], "next_o": [following]}
@@ -76,10 +82,13 @@ async def equals_model(dut):
 @cocotb.test
 async def equals_model_exhaustively(dut):
     """The same for all control points, masks and flags."""
+    j = 1 << bench.parameter(dut, "N1")
     items = (
-        dict(cells_i=cells, excluded_i=bits >> 2, last_i=bits & 1, paper_i=bits >> 1 & 1)
+        dict(cells_i=cells, excluded_i=excluded, possible_i=possible, last_i=bits & 1, paper_i=bits >> 1)
         for cells in stimuli(dut, 0)
-        for bits in range(4 << (1 << bench.parameter(dut, "N1")))
+        for excluded in range(1 << j)
+        for possible in range(1 << j)
+        for bits in range(4)
     )
     await equal(dut, items)
 
@@ -101,6 +110,38 @@ async def walk_equals_masks(dut):
         points = b if pick is None else cells[pick * degree : pick * degree + size]
         if first_two(mask) != wanted or parent != points:
             raise bench.mismatch(number, item, [f"expected {wanted} {points}, the walk has {bin(mask)} {parent}"])
+
+
+@cocotb.test
+async def bounds_are_possible_cells(dut):
+    """Vector sums: the model's mask is this module's, possible_i set where no bound excludes a cell."""
+    width, n1 = bench.parameter(dut, "W"), bench.parameter(dut, "N1")
+    assert bench.parameter(dut, "D") == 1
+    random = bench.rng("bounds")
+    seen = set()
+    for number, cells in enumerate(stimuli(dut, 200)):
+        item = flags(random, [max(v, -bench.high(width)) for v in cells], n1)
+        level, zone, values = random.randrange(8), random.randrange(ZONES), item["cells_i"]
+        form = [0] * FORM_WORDS
+        shift = n1 * (level + 1)
+        for name, digits in (("lipschitz", shift), ("curvature", 2 * shift)):
+            sums = [abs(a) + abs(b) for a, b in zip(values, values[1:], strict=False)]
+            bound = random.choice([*sums, max(0, random.choice(sums) - 1), random.getrandbits(width)])
+            form[FORM_INDEX[name] + zone] = bound << digits | random.getrandbits(digits)  # rounded up: bound + 1
+        form[FORM_INDEX["from_level"] + zone] = random.choice((0, level, level + 1, 63))
+        bend = (form[FORM_INDEX["curvature"] + zone] >> 2 * shift) + 1
+        most = (form[FORM_INDEX["lipschitz"] + zone] >> shift) + 1
+        possible = 0
+        for j, (a, b) in enumerate(zip(values, values[1:], strict=False)):
+            size, above = abs(a) + abs(b), a > 0 and b > 0 and level >= form[FORM_INDEX["from_level"] + zone]
+            free = size > most or (above and (size > bend or min(abs(a), abs(b)) > bend >> 2))
+            possible |= (not free) << j
+        wanted = candidates(values, item["excluded_i"], item["last_i"], False, 1, n1, possible)
+        mask = bounded(values, item["excluded_i"], item["last_i"], form, level, zone, n1)
+        if mask != wanted:
+            raise bench.mismatch(number, item, [f"the bounds leave {possible:b}, so {wanted:b}; the model: {mask:b}"])
+        seen.add((possible != 0, possible == (1 << (1 << n1)) - 1))
+    assert len(seen) == 3
 
 
 def signs_of(b, eighths):
@@ -132,18 +173,23 @@ WIDE = [
     dict(W=36, D=4, N1=3, Rules=PAPER),
     dict(W=48, D=2, N1=4, Rules=BOTH),
     dict(W=16, D=3, N1=2, Rules=BOTH),
+    dict(W=VECTOR_WIDTH, D=1, N1=3, Rules=BOTH),
     dict(W=3, D=2, N1=1, Rules=BOTH),
 ]
 
 
 @pytest.mark.parametrize("parameters", WIDE, ids=bench.label)
 def test_choice(parameters):
-    """Corners, random control points and cells of a parent; all control points at W = 3; every set of rules."""
+    """Corners, random control points and cells of a parent; all control points at W = 3; every set of rules.
+
+    Cells that a bound leaves possible, whatever the degree.
+    """
     checks = ["equals_model", "certified_misses_nothing"]
-    bench.run(__name__, "rdx_select", parameters, checks + ["walk_equals_masks"] * (parameters["W"] > 3))
+    checks += ["walk_equals_masks"] * (parameters["W"] > 3) + ["bounds_are_possible_cells"] * (parameters["D"] == 1)
+    bench.run(__name__, "rdx_select", parameters, checks)
 
 
 @pytest.mark.parametrize("rules", [CERTIFIED, PAPER, BOTH])
 def test_every_small_choice(rules):
-    """Exhaustive in control points, excluded cells, level and rule."""
+    """Exhaustive in control points, excluded and possible cells, level and rule."""
     bench.run(__name__, "rdx_select", dict(W=3, D=1, N1=1, Rules=rules), ["equals_model_exhaustively"])

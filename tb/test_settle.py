@@ -7,13 +7,24 @@ import cocotb
 import pytest
 
 import bench
-from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, DEPTH_WIDTH, ROOTS_WIDTH, STEPS_MAX
+from raydix.formats import (
+    BOX_WIDTH,
+    COORD_FRAC,
+    COORD_WIDTH,
+    DEPTH_WIDTH,
+    FORM_INDEX,
+    FORM_WORDS,
+    ROOTS_WIDTH,
+    STEPS_MAX,
+    VECTOR_WIDTH,
+)
 from raydix.item import AGAIN, BOX, DEPTH, DONE, HIT, IDLE, RUN, SIZE, B, C
 from raydix.normalize import norm_limit, normalize
 from raydix.select import changes
 from raydix.settle import settle
 
 LATENCY = 2
+FACES = bench.Struct(("face", -COORD_WIDTH, 3))  # of low_i and of high_i
 
 
 def structs(dut):
@@ -23,7 +34,15 @@ def structs(dut):
     return dict(control_i=control, control_o=control, segment_i=segment, segment_o=segment)
 
 
-def model(dut, control, segment, dead):
+def constants(faces):
+    """Words of a surface of which the box (low, high) counts, for the model."""
+    form = [0] * FORM_WORDS
+    for name, face in zip(("low", "high"), faces, strict=True):
+        form[FORM_INDEX[name] : FORM_INDEX[name] + 3] = face
+    return form
+
+
+def model(dut, control, segment, dead, faces):
     """Control and segment by the golden model; whether the control points and the ends mean something."""
     n1, steps, width, degree = (bench.parameter(dut, name) for name in ("N1", "K", "W", "D"))
     control, segment = dict(control), dict(segment)
@@ -39,10 +58,11 @@ def model(dut, control, segment, dead):
     if dead:
         status = DONE
     elif last:
-        status = HIT if settle(item) and changes(item, B, degree) else DONE
+        status = HIT if settle(item, constants(faces), degree) and changes(item, B, degree) else DONE
     else:
         control["level"] += 1
-        normalize(item, B, degree + 1, width, width, norm_limit(n1))
+        if degree > 1:
+            normalize(item, B, degree + 1, width, width, norm_limit(n1))
     if status == DONE and control["pending"]:
         status = AGAIN
     if control["steps"] == STEPS_MAX and status != HIT:
@@ -53,16 +73,33 @@ def model(dut, control, segment, dead):
     return control, segment, status == RUN, not dead
 
 
-def stimuli(dut, count):
+def batches(dut, count):
+    """Items in batches of one box (low, high): it counts where D = 1, and is constant there."""
+    random = bench.rng("faces")
+    for number in range(5 if bench.parameter(dut, "D") == 1 else 1):
+        faces = [[random.randint(bench.low(COORD_WIDTH) + 8, bench.high(COORD_WIDTH) - 8) for _ in range(3)]
+                 for _ in range(2)]  # fmt: skip
+        faces = [list(map(f, *faces)) for f in (min, max)]
+        if number == 0:  # an axis that is not cut
+            faces[0][1], faces[1][1] = bench.low(COORD_WIDTH), bench.high(COORD_WIDTH)
+        yield faces, stimuli(dut, count, faces, bench.rng(number))
+
+
+def stimuli(dut, count, faces, random):
     """Items of every status and level; cells at the faces of the box; steps at their limit."""
     n1, steps, width, degree = (bench.parameter(dut, name) for name in ("N1", "K", "W", "D"))
-    random = bench.rng()
     points = bench.vectors(random, width, degree + 1, count)
     for b in points:
         box = [random.choice((0, 0, 1, 2, random.randrange(1 << BOX_WIDTH))) for _ in range(3)]
         start = [random.choice((-1, 1)) * (1 << (COORD_FRAC + 1 - m)) if m else 0 for m in box]
+        if degree == 1:  # one axis at a face, others within
+            cut = random.randrange(3)
+            start = [random.choice(pair) if i == cut else random.randint(*pair)
+                     for i, pair in enumerate(zip(*faces, strict=True))]  # fmt: skip
         if random.random() < 0.3:
             start = [random.randint(bench.low(COORD_WIDTH), bench.high(COORD_WIDTH)) for _ in box]
+        elif degree == 1:
+            start = [v + random.randint(-3, 3) for v in start]
         else:
             start = [int(v * random.choice((1, 1, random.random()))) + random.randint(-3, 3) for v in start]
         start = [max(bench.low(COORD_WIDTH), min(bench.high(COORD_WIDTH), v)) for v in start]
@@ -89,19 +126,22 @@ async def equals_model(dut):
     seen = set()
     kinds = structs(dut)
     layout = kinds["segment_o"]
-
-    def expect(item):
-        control, segment, points, ends = model(dut, item["control_i"], item["segment_i"], item["dead_i"])
-        seen.add((item["control_i"]["status"], control["status"]))
-        given = layout.unpack(bench.Port(dut, "segment_o").read()[0])
-        if not points:
-            segment["b"] = given["b"]  # no longer needed
-        if not ends:
-            segment |= {name: given[name] for name in ("start", "stop", "depth_start", "depth_stop")}
-        return dict(control_o=control, segment_o=segment)
-
     await bench.start(dut)
-    await bench.pipeline(dut, stimuli(dut, 1500), expect, LATENCY, kinds)
+    for faces, items in batches(dut, 1500):
+
+        def expect(item, faces=faces):
+            control, segment, points, ends = model(dut, item["control_i"], item["segment_i"], item["dead_i"], faces)
+            seen.add((item["control_i"]["status"], control["status"]))
+            given = layout.unpack(bench.Port(dut, "segment_o").read()[0])
+            if not points:
+                segment["b"] = given["b"]  # no longer needed
+            if not ends:
+                segment |= {name: given[name] for name in ("start", "stop", "depth_start", "depth_stop")}
+            return dict(control_o=control, segment_o=segment)
+
+        for name, face in zip(("low_i", "high_i"), faces, strict=True):
+            bench.Port(dut, name, FACES).write(dict(face=face))
+        await bench.pipeline(dut, items, expect, LATENCY, kinds)
     assert seen == {(RUN, s) for s in (RUN, HIT, AGAIN, DONE)} | {(s, s) for s in (IDLE, AGAIN, HIT, DONE)} or (
         bench.parameter(dut, "K") == 1 and (RUN, RUN) not in seen
     ), seen
@@ -110,28 +150,40 @@ async def equals_model(dut):
 @cocotb.test
 async def within_bound(dut):
     """A hit's ends have met within half an ulp of the exact middle, half up; the point is in the box."""
-    hits = 0
-    for number, item in enumerate(stimuli(dut, 1500)):
-        control, segment, _, _ = model(dut, item["control_i"], item["segment_i"], item["dead_i"])
-        if item["control_i"]["status"] != RUN or control["status"] != HIT:
-            continue
-        hits += 1
-        old = item["segment_i"]
-        pairs = [*zip(old["start"], old["stop"], strict=True), (old["depth_start"], old["depth_stop"])]
-        point = [*segment["start"], segment["depth_start"]]
-        good = point == [*segment["stop"], segment["depth_stop"]] and (old["b"][0] > 0) != (old["b"][-1] > 0)
-        good &= all(0 <= p - Fraction(a + b, 2) <= Fraction(1, 2) for p, (a, b) in zip(point, pairs, strict=True))
-        good &= all(-(2 ** (1 - m)) <= Fraction(p, 1 << COORD_FRAC) < Fraction(2) ** (1 - m)
-                    for p, m in zip(point[:3], control["box"], strict=True))  # fmt: skip
-        if not good:
-            raise bench.mismatch(number, item, [f"the model has {control} {segment}"])
+    hits = edges = 0
+    for faces, items in batches(dut, 1500):
+        for number, item in enumerate(items):
+            control, segment, _, _ = model(dut, item["control_i"], item["segment_i"], item["dead_i"], faces)
+            if item["control_i"]["status"] != RUN or control["status"] != HIT:
+                continue
+            hits += 1
+            old = item["segment_i"]
+            pairs = [*zip(old["start"], old["stop"], strict=True), (old["depth_start"], old["depth_stop"])]
+            point = [*segment["start"], segment["depth_start"]]
+            good = point == [*segment["stop"], segment["depth_stop"]] and (old["b"][0] > 0) != (old["b"][-1] > 0)
+            good &= all(0 <= p - Fraction(a + b, 2) <= Fraction(1, 2) for p, (a, b) in zip(point, pairs, strict=True))
+            if bench.parameter(dut, "D") == 1:
+                good &= all(low <= p <= high for p, low, high in zip(point[:3], *faces, strict=True))
+                edges += any(p in pair for p, *pair in zip(point[:3], *faces, strict=True))
+            else:
+                good &= all(-(2 ** (1 - m)) <= Fraction(p, 1 << COORD_FRAC) < Fraction(2) ** (1 - m)
+                            for p, m in zip(point[:3], control["box"], strict=True))  # fmt: skip
+            if not good:
+                raise bench.mismatch(number, item, [f"the model has {control} {segment}"])
     assert hits > 20, f"only {hits} hits"
+    assert edges > 5 or bench.parameter(dut, "D") > 1, f"only {edges} hits on a face"
 
 
-SETS = [dict(N1=3, K=8, W=36, D=4), dict(N1=1, K=32, W=16, D=2), dict(N1=4, K=1, W=48, D=3)]
+SETS = [
+    dict(N1=3, K=8, W=36, D=4),
+    dict(N1=1, K=32, W=16, D=2),
+    dict(N1=4, K=1, W=48, D=3),
+    dict(N1=3, K=8, W=VECTOR_WIDTH, D=1),
+    dict(N1=2, K=1, W=VECTOR_WIDTH, D=1),
+]
 
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_settle(parameters):
-    """The reference, the most steps, a single step."""
+    """The reference, the most steps, a single step; vector sums, whose values are not scaled."""
     bench.run(__name__, "rdx_settle", parameters)

@@ -94,7 +94,8 @@ def test_sources_are_those_the_module_needs(synth):
     assert [path.name for path in modules] == ["rdx_delay.sv", "rdx_halve.sv"]
     assert not included
     modules, included = synth.needed("rdx_core")
-    assert len(modules) > 10 and len(included) == 2
+    assert {"rdx_pkg.sv", "rdx_ring.sv", "rdx_step.sv", "rdx_delay.sv"} < {path.name for path in modules}
+    assert "rdx_types.svh" in [path.name for path in included]
 
 
 def refused(synth, capsys, *arguments):

@@ -28,7 +28,7 @@ def possible(start, stop, lipschitz, curvature, curved):
     start, stop  indicator at the cell's ends, of one sign
     lipschitz    the indicator changes at most by this over the cell
     curvature    if ``curved``: outside of the solid it lies above its chord less x*(1-x)*curvature, 0 <= x <= 1
-    Source: docs/method.md, "Two bounds".
+    Source: docs/spirals.md, "Two bounds".
     """
     a, b = abs(start), abs(stop)
     may = a + b <= lipschitz

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Words of a spiral: coordinate lanes of one scale, and the constants of the evaluator (formats.FORM).
 
-All with 256 bits, rounded once. Source: docs/method.md, "Vector sums".
+All with 256 bits, rounded once. Source: docs/spirals.md.
 """
 
 from typing import NamedTuple

@@ -43,22 +43,30 @@ def right_half(x, y, angle, count):
 
 
 @kernel
-def vectoring(x, y, angle, count, iterations):
+def vectoring(x, y, angle, count, iterations, still):
     """Turn ``count`` vectors (x, y) onto the positive x axis.
 
     x      on return K times the length
     y      on return what is left of it, about 2^(1-iterations) of the length
     angle  on return the vectors' angle in turns, u0p32 modulo one turn
+    From iteration ``still`` on x stays as it is: it would change by less than an ulp where 2*still is above its width.
     The numbers have any fixed point; each iteration rounds down once in x and once in y. x needs one bit more than the
-    length. ``iterations`` is a multiple of 4. Source: J. E. Volder, The CORDIC trigonometric computing technique, 1959.
+    length. ``iterations`` and ``still`` are multiples of 4.
+    Source: J. E. Volder, The CORDIC trigonometric computing technique, 1959.
     """
     right_half(x, y, angle, count)
-    for i in range(0, iterations, 4):  # by fours, which stay in registers
+    for i in range(0, still, 4):  # by fours, which stay in registers
         for j in range(count):
             u, v, w = turned(x[j], y[j], angle[j], i)
             u, v, w = turned(u, v, w, i + 1)
             u, v, w = turned(u, v, w, i + 2)
             x[j], y[j], angle[j] = turned(u, v, w, i + 3)
+    for i in range(still, iterations, 4):
+        for j in range(count):
+            _, v, w = turned(x[j], y[j], angle[j], i)
+            _, v, w = turned(x[j], v, w, i + 1)
+            _, v, w = turned(x[j], v, w, i + 2)
+            _, y[j], angle[j] = turned(x[j], v, w, i + 3)
     for j in range(count):
         angle[j] &= (1 << ANGLE_WIDTH) - 1
 

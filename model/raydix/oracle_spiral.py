@@ -241,11 +241,9 @@ def _scan(tube, base, ray, low, high, unit, centre, half, found):
     """Sign changes and extrema of f at base + s ray for low <= s <= high; the result is that of `_roots_on_ray`.
 
     The step keeps the change of f below the spacing and, down to a fraction of that, below |f| / 2. f changes by at
-    most 1 per length within a half plane, and by `steep` per turn of azimuth. Past the axis, where the azimuth may
-    turn in no time, the steps shrink with rho.
+    most 1 per length within a half plane, and by `steep` per turn of azimuth, which close to the axis takes no time.
     """
-    across = ray[0] * ray[0] + ray[1] * ray[1]
-    length = sqrt(across + ray[2] * ray[2])
+    length = _length(ray[0], ray[1], ray[2])
     steep = sqrt(tube.pitch * tube.pitch + tube.R_growth * tube.R_growth) + abs(tube.r_growth)
     swirl = steep * abs(base[0] * ray[1] - base[1] * ray[0]) / (2.0 * pi)
     reach = max(abs(low), abs(high))
@@ -259,8 +257,6 @@ def _scan(tube, base, ray, low, high, unit, centre, half, found):
         square = max(x * x + y * y, 1e-30 * tube.size * tube.size)
         rate = length + swirl / square
         step = min(coarse, tube.spacing / rate)
-        if across > 0.0:
-            step = min(step, 0.25 * sqrt(square / across))
         step = max(min(step, 0.5 * abs(fb) / rate), step / PARTS, least)
         c = min(b + step, high)
         fc = _at(tube, base, ray, c)

@@ -28,7 +28,7 @@ def nearest(rho, z, angle, form, second, general):
     angle   azimuth, u0p32
     second  0 or 1: which of the two turns about the place where the distance is least (``general`` only)
     Without ``general`` neither radius grows, and the nearest turn is the one nearest in height.
-    Source: docs/method.md, "The nearest turn".
+    Source: docs/spirals.md, "The nearest turn".
     """
     azimuth = angle >> (ANGLE_WIDTH - TURN_FRAC)
     height = z << Z_UP

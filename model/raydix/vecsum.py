@@ -10,7 +10,16 @@ from typing import NamedTuple
 import numpy as np
 
 from .cordic import lengths, vectoring
-from .formats import ANGLE_ITERATIONS, COORD_FRAC, FORM_INDEX, LENGTH_ITERATIONS, TURN_FRAC, VECTOR_FRAC, VECTOR_WIDTH
+from .formats import (
+    ANGLE_ITERATIONS,
+    ANGLE_STILL,
+    COORD_FRAC,
+    FORM_INDEX,
+    LENGTH_ITERATIONS,
+    TURN_FRAC,
+    VECTOR_FRAC,
+    VECTOR_WIDTH,
+)
 from .kernel import kernel, subroutine, zeros
 from .multiply import scaled
 from .turn import nearest
@@ -85,13 +94,13 @@ def evaluate(lanes, count, form, general):
     the bound of the indicator's change does not hold), and at least ``guard`` less the whole of it (about the axis
     there is no surface, and the azimuth means nothing). Positive outside; zero counts as inside.
     ``general``: 0 where neither radius grows and the spiral has a whole turn at least, else 1.
-    Source: docs/method.md, "Vector sums".
+    Source: docs/spirals.md, "The indicator".
     """
     for j in range(count):
         lanes.rho[j] = lanes.x[j] << UP
         lanes.v[j] = lanes.y[j] << UP
         lanes.value[j] = FAR
-    vectoring(lanes.rho, lanes.v, lanes.angle, count, ANGLE_ITERATIONS)
+    vectoring(lanes.rho, lanes.v, lanes.angle, count, ANGLE_ITERATIONS, ANGLE_STILL)
     for second in range(1 + general):
         tube(lanes, count, form, second, general)
         ball(lanes, count, form, second, general)
