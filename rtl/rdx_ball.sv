@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distance of a point from the ball at an end of the spiral: two lengths one after the other, less the ball's radius.
 //
-// Formats    x_i, y_i, z_i: the point, s2p30, z_i carries K. stop_i: the ball at the end, not that at the start.
-//            distance_o: K^2 times the distance, s5p33.
+// Formats    point_i: x, y, z in s2p30, z carries K. stop_i: the ball at the end, not that at the start. size_i: K^2 times
+//            its radius, s5p33. distance_o: K^2 times the distance, s5p33.
 // Rounding   rdx_cordic.    Overflow   cannot happen: compile scales the scene.
 // Timing     latency rdx_pkg::BallLatency = 2*LengthIterations + 4 clocks in which en_i = 1, one point a clock.
 // Reset      of the waiting line's place only.

@@ -6,7 +6,7 @@
 //
 // Formats    x_i, y_i, x_o: sWp0 of any fixed point; x_o = K times the length. angle_o: turns, u0p32; with Angle = 0
 //            constant 0 and not built. From iteration Still on x stays as it is: it would change by less than an ulp
-//            where 2*Still > W. The length is right to 2^-(2*Iterations) of itself, the angle to 2^-Iterations.
+//            where 2*Still > W. The length is right to 2^-(2*Iterations-1) of itself, the angle to 2^-Iterations.
 // Rounding   down, once in x and once in y in each iteration; the table of angles to nearest.
 // Overflow   cannot happen where K times the length is below 2^(W-1).
 // Timing     latency Iterations + 1 clocks in which en_i = 1, one vector a clock; no reset.
@@ -31,6 +31,10 @@ module rdx_cordic #(
 
   if (Iterations < 1 || Iterations > 32 || Iterations > W) begin : gen_illegal_iterations
     $fatal(1, "rdx_cordic: Iterations = %0d; allowed: 1 to 32, and at most W = %0d", Iterations, W);
+  end
+
+  if (Still < Iterations && 2 * Still <= W) begin : gen_illegal_still
+    $fatal(1, "rdx_cordic: Still = %0d; allowed: above %0d, or Iterations", Still, W / 2);
   end
 
   // atan(2^-i) in turns

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Product of two 36-bit operands, scaled: floor(a*b / 2^Drop), in three clocks and four 18 by 18 multipliers.
 //
-// With a = a1*2^18 + a0, a0 = as - 2^18*s (as the low half as a signed number, s its top bit), so that every
-// partial product is one of two signed, or two unsigned, halves.
+// With a = a1*2^18 + a0 the low half is a0 = as + 2^18*s, where as is the same bits as a signed number and s the top one
+// of them. So every partial product is one of two signed, or two unsigned, halves.
 //
 // Formats    a_i, b_i: s36p0. product_o: s<W>p0, the low W bits of the result.
 // Rounding   floor.    Overflow   the caller's W holds the result.

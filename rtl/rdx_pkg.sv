@@ -16,7 +16,7 @@ package rdx_pkg;
   localparam int unsigned DepthWidth = 32;
   // s64p0: accumulator of a quadric's control point, magnitude below 2^62
   localparam int unsigned QuadAccWidth = 64;
-  // s36p0: operand of the quartic product: accumulator / 2^27, half up
+  // s36p0: operand of a product; quartic: accumulator / 2^27, half up
   localparam int unsigned OperandWidth = 36;
   // bits dropped from an accumulator to make an operand
   localparam int unsigned OperandShift = 27;
@@ -30,8 +30,8 @@ package rdx_pkg;
   localparam int unsigned RootsWidth = 3;
   // u5p0: box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts
   localparam int unsigned BoxWidth = 5;
-  // u10p0: steps taken; at the largest value the item is given up
-  localparam int unsigned StepsWidth = 10;
+  // u12p0: steps taken; at the largest value the item is given up
+  localparam int unsigned StepsWidth = 12;
   // x, y, z at the near end h and the far end e
   localparam int unsigned CoordLanes = 6;
   // s5p33: lengths in the vector-sum evaluator; the indicator
@@ -136,14 +136,14 @@ package rdx_pkg;
   localparam int unsigned TurnLatency = 6;
   localparam int unsigned TubeLatency = LengthIterations + 6;
   localparam int unsigned BallLatency = 2 * LengthIterations + 4;
-  localparam int unsigned VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 3;
+  localparam int unsigned VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 6;
 
   // Latency of rdx_bound: sums and bounds, comparisons.
   localparam int unsigned BoundLatency = 2;
 
   // Clocks in which a number of lanes evaluates a number of points.
   function automatic int unsigned phases(int unsigned points, int unsigned lanes);
-    return (points + lanes - 1) / lanes;
+    return lanes == 0 ? points : (points + lanes - 1) / lanes;  // 0 is refused by rdx_lanes
   endfunction
 
   // Which phase it was a number of clocks ago.

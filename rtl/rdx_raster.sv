@@ -8,7 +8,8 @@
 // Formats    ends_o: coordinates s2p30 (the accumulator's s2p46, floor), depths s1p31. quads_o: accumulators s64p0 of
 //            q(h,h), q(h,e), q(e,e) of Q3, Q1, Q2; only those of Q3 are built for D = 2.
 // Rounding   floor of the coordinates; the lanes are exact.    Overflow   cannot happen: compile scales the lanes.
-// Timing     descriptor: a word a clock, 39, 75 or, of a vector sum, 74 words. Rays: one a clock, the first one clock after the last word.
+// Timing     descriptor: a word a clock, 39, 75 or, of a vector sum, 74 words, whose constants wait for vector_idle_i. Rays:
+//            one a clock, the first one clock after the last word.
 // Reset      control only.
 // Model      model/raydix/raster.py
 `default_nettype none
@@ -168,6 +169,8 @@ module rdx_raster #(
   assign quartic_o = quartic_q;
   assign vector_o  = vector_q;
   if (D == 0) begin : gen_no_quads
+    // nobody would take its rays
+    `RDX_ASSERT(a_vector, !(load && state_q == Header && !desc_data_i[SurfaceWidth+RootsWidth+2+3*BoxWidth]))
     always_comb for (int unsigned i = 0; i < Quads; i++) quads_o[i] = '0;
   end
   if (Vector) begin : gen_form

@@ -13,7 +13,7 @@
 // Timing     a new ray is taken where an empty slot comes by, in the best case every clock; a ray that needs s steps in
 //            one descent is back after ceil(s/U) turns of U*latency of rdx_step + 2 clocks. Vector sums (D = 1): a slot
 //            every Phases clocks, and a turn is made a multiple of that.
-// Reset      status of the slots only; takes Slots clocks after the release, in which no ray is taken.
+// Reset      status of the slots only; takes a turn after the release, in which no ray is taken.
 // Model      model/raydix/ring.py
 `default_nettype none
 `include "rdx_types.svh"
@@ -84,12 +84,12 @@ module rdx_ring #(
   end
 
   // ---- what the items began with ----
-  localparam type first_t = struct packed {
+  typedef struct packed {
     surface_t surface;
     pixel_t   x;
     pixel_t   y;
     segment_t segment;
-  };
+  } first_t;
   first_t   first;  // of the item that leaves the last unit
   segment_t again_q;  // of the item behind the wrap
   logic enter, filled;  // the place behind the wrap may hold an item; what leaves the last unit has entered the ring

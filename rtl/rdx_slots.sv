@@ -7,7 +7,7 @@
 // Timing     take_i writes first_i for the item that enters in this clock, where enter_o = 1; first_o: of the item that
 //            leaves the last unit in this clock. phase_o: of the place at the first unit. filled_o: the ring has turned once
 //            since the reset, so what leaves the last unit has entered it.
-// Reset      all.
+// Reset      the counters and filled_o.
 // Model      none: which slot an item has changes no value
 `default_nettype none
 

@@ -8,8 +8,8 @@
 // Rounding   half up in each average; normalising is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
 // Timing     latency rdx_pkg::step_latency clocks, one item a clock; no stall.
 //            D = 1: one item every ceil((J-1)/Lanes) clocks, where phase_i = 0
-//            Without reset: the status of an item comes from the ring, which resets its own.
-// Error      docs/method.md, "Rounding"
+//            Without reset but for D = 1, whose waiting lines have places: the status of an item comes from the ring.
+// Error      docs/method.md, "Rounding"; D = 1: docs/spirals.md, "Error of the evaluator"
 // Model      model/raydix/step.py
 `default_nettype none
 `include "rdx_types.svh"
@@ -47,6 +47,10 @@ module rdx_step #(
   end
   if (W < 16 || W > 48) begin : gen_illegal_w
     $fatal(1, "rdx_step: W = %0d; allowed: 16 to 48", W);
+  end
+
+  if (D == 1 && (W != VectorWidth || HalveStages != 1)) begin : gen_illegal_d
+    $fatal(1, "rdx_step: D = 1 with W = %0d, HalveStages = %0d; allowed: %0d, 1", W, HalveStages, VectorWidth);
   end
 
   // ---- cells: control points by halving, or the indicator at the boundaries by evaluating ----
@@ -145,10 +149,10 @@ module rdx_step #(
   );
 
   // ---- pick: the chosen cell becomes the item's, its number the next digits of t ----
-  localparam type picked_t = struct packed {
+  typedef struct packed {
     logic     dead;     // no cell was found
     control_t control;
-  };
+  } picked_t;
   control_t picked_d;
   picked_t picked[1], picked_q[1];
   assign picked[0] = '{dead: !found, control: picked_d};
@@ -188,7 +192,6 @@ module rdx_step #(
       .control_o,
       .segment_o
   );
-
   wire unused_form = &{1'b0, form_i};
 
 endmodule

@@ -6,7 +6,8 @@
 //            on the centre curve, s8p28. none_i: there is no turn. distance_o: K^2 times the distance, s5p33, the largest
 //            number if there is none.
 // Rounding   floor of the products; rdx_cordic.    Overflow   cannot happen: compile scales the scene.
-// Timing     latency rdx_pkg::TubeLatency = LengthIterations + 6 clocks in which en_i = 1, one point a clock; no reset.
+// Timing     latency rdx_pkg::TubeLatency = LengthIterations + 6 clocks in which en_i = 1, one point a clock.
+// Reset      of the waiting line's place only.
 // Model      model/raydix/vecsum.py (tube)
 `default_nettype none
 

@@ -3,7 +3,8 @@
 `ifndef RDX_TYPES_SVH
 `define RDX_TYPES_SVH
 
-// The cell at work: its ends and its Bernstein coefficients b[0] to b[D], sWp0.
+// The cell at work: its ends and its Bernstein coefficients b[0] to b[D], sWp0; vector sums (D = 1): the indicator at both
+// ends.
 `define RDX_SEGMENT_T(W, D) \
   struct packed { \
     rdx_pkg::ends_t          ends; \

@@ -135,26 +135,30 @@ module rdx_vecsum #(
     );
   end
 
-  // ---- two clocks: the least distance, and its limits ----
-  vector_t least, least_q, axis_q, guard_q, limited, size_q;
-  logic outside_q;
-  always_comb begin
-    least = distance[0];
-    for (int unsigned i = 1; i < 2 * Parts; i++) if (distance[i] < least) least = distance[i];
-    limited = least_q < 0 ? -least_q : least_q;
-    if (limited > (axis_q >>> 1)) limited = axis_q >>> 1;
-    if (limited < guard_q) limited = guard_q;
-  end
-  wire vector_t axis = rho_end + (rho_end >>> 1);
+  // ---- six clocks: the least distance, in two steps, its magnitude, its two limits, its sign ----
+  vector_t nearer_q[2], least_q, size_q, below_q, limited_q;
+  vector_t axis, axis_q[3], guard_q;
+  logic [2:0] outside_q;
+  assign axis = rho_end + (rho_end >>> 1);
   always_ff @(posedge clk_i) begin
     if (en_i) begin
-      least_q <= least;
-      axis_q <= axis;
-      guard_q <= form_i.guard - axis;
-      size_q <= limited;
-      outside_q <= least_q > 0;
-      value_o <= outside_q ? size_q : -size_q;
+      for (int unsigned i = 0; i < Parts; i++) begin
+        nearer_q[i] <= distance[2*i] < distance[2*i+1] ? distance[2*i] : distance[2*i+1];
+      end
+      axis_q[0] <= axis;
+      least_q <= General && nearer_q[1] < nearer_q[0] ? nearer_q[1] : nearer_q[0];
+      axis_q[1] <= axis_q[0];
+      size_q <= least_q < 0 ? -least_q : least_q;
+      axis_q[2] <= axis_q[1];
+      below_q <= size_q < (axis_q[2] >>> 1) ? size_q : axis_q[2] >>> 1;
+      guard_q <= form_i.guard - axis_q[2];
+      limited_q <= below_q < guard_q ? guard_q : below_q;
+      outside_q <= {outside_q[1:0], least_q > 0};
+      value_o <= outside_q[2] ? limited_q : -limited_q;
     end
+  end
+  if (!General) begin : gen_one_part
+    assign nearer_q[1] = '0;
   end
   wire unused = &{1'b0, form_i};
 

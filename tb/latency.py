@@ -7,7 +7,7 @@ CERTIFIED = 1  # the mask of rules with which the paper rule is not built
 NORMALIZE = 2
 TURN = 6
 TUBE = LENGTH_ITERATIONS + 6
-VECSUM = ANGLE_ITERATIONS + 1 + TURN + TUBE + 3
+VECSUM = ANGLE_ITERATIONS + 1 + TURN + TUBE + 6
 BOUND = 2
 
 

@@ -5,6 +5,7 @@ import random
 
 import pytest
 
+import spirals
 from raydix.compile import compile_scene
 from raydix.config import Config
 from raydix.core import scratch
@@ -16,7 +17,25 @@ from raydix.scene import load_scene
 from test_random_scenes import TYPES, scene_text
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, 3), (2, 1), (3, 2), (9, 7)], ids=lambda s: f"{s[0]}x{s[1]}")
+SIZES = [(1, 1), (1, 3), (2, 1), (3, 2), (9, 7)]
+
+
+def lanes(surface):
+    """Accumulators of all lanes at each pixel of the rectangle."""
+    state = scratch(Config(), 4)[0]
+    descriptor = words(surface.words)
+    load_lanes(state, descriptor)
+    x0, y0, x1, y1 = surface.rect
+    for y in range(y0, y1 + 1):
+        for x in range(x0, x1 + 1):
+            yield [int(v) for v in state[VALUE]]
+            if x < x1:
+                next_pixel(state)
+        if y < y1:
+            next_row(state)
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda s: f"{s[0]}x{s[1]}")
 def test_small_images_compile(size, tmp_path):
     """No scene is refused because of its size, and every lane is within bounds at every pixel."""
     dice = random.Random(f"small {size}")
@@ -28,18 +47,24 @@ def test_small_images_compile(size, tmp_path):
             scene = load_scene(path, *size)
             for surface in compile_scene(scene, Config()).surfaces:
                 seen += 1
-                state = scratch(Config())[0]
-                descriptor = words(surface.words)
-                load_lanes(state, descriptor)
-                x0, y0, x1, y1 = surface.rect
-                for y in range(y0, y1 + 1):
-                    for x in range(x0, x1 + 1):
-                        values = [int(v) for v in state[VALUE]]
-                        assert max(map(abs, values[:COORD_LANES])) < 1 << (COORD_ACC_WIDTH - 1)
-                        assert max(map(abs, values[COORD_LANES:])) < (1 << 62) - (1 << (OPERAND_SHIFT - 1))
-                        assert max(map(abs, values[COORD_LANES : COORD_LANES + 3])) <= 1 << 60
-                        if x < x1:
-                            next_pixel(state)
-                    if y < y1:
-                        next_row(state)
+                for values in lanes(surface):
+                    assert max(map(abs, values[:COORD_LANES])) < 1 << (COORD_ACC_WIDTH - 1)
+                    assert max(map(abs, values[COORD_LANES:])) < (1 << 62) - (1 << (OPERAND_SHIFT - 1))
+                    assert max(map(abs, values[COORD_LANES : COORD_LANES + 3])) <= 1 << 60
     assert seen > 40
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda s: f"{s[0]}x{s[1]}")
+def test_spirals_in_small_images(size):
+    """The same for spirals: all coordinates are within 7/4, which is what the evaluator has room for."""
+    seen = 0
+    for name in dict.fromkeys(name for name, _ in (*spirals.HELIX, *spirals.GENERAL)):
+        for surface in spirals.compiled(name, 3, *size).surfaces:
+            if not surface.is_vector_sum:
+                continue
+            seen += 1
+            for values in lanes(surface):
+                # words of differences are rounded: half an ulp for each pixel
+                assert max(map(abs, values[:COORD_LANES])) <= (7 << COORD_ACC_WIDTH - 4) + sum(size)
+                assert not any(values[COORD_LANES:])
+    assert seen == 8

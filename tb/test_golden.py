@@ -21,10 +21,12 @@ import pytest
 from hypothesis import assume, example, given, seed, settings
 from hypothesis import strategies as st
 
+import spirals
 from raydix import golden, kernel
 from raydix.compile import compile_scene
 from raydix.config import Config
-from raydix.formats import STEPS_MAX
+from raydix.ends import ends
+from raydix.formats import COORD_FRAC, FORM_WORDS, STEPS_MAX
 from raydix.halve import average
 from raydix.hits import differing_bits
 from raydix.item import BOX, DEPTH, PAPER, ROOTS, SIZE, STEPS, B, C, T
@@ -32,7 +34,8 @@ from raydix.kernel import words, zeros
 from raydix.normalize import norm_limit, normalize
 from raydix.product import product as form
 from raydix.ring import trace
-from raydix.scene import load_scene
+from raydix.step import new_work
+from raydix.vecsum import evaluate, new_lanes
 
 ROOT = Path(__file__).resolve().parents[1]
 SEED = int(os.environ.get("SEED") or 1)
@@ -43,7 +46,8 @@ def examples(count):
     return settings(max_examples=count, deadline=None, database=None)
 
 
-# One numba compilation for each n1. Sizes: interpreted, a step of the paper rule at n1 = 4 takes most of a millisecond.
+# One numba compilation for each n1, and one for spirals.
+# Sizes: interpreted, a step of the paper rule at n1 = 4 takes most of a millisecond.
 CONFIGS = (Config(n1=1, steps=24, units=1), Config(n1=4, steps=6, units=1))
 FRAMES = {
     f"{scene}-{config.n1}-{rule}": (scene, config.with_(rule=rule), *size[rule])
@@ -55,11 +59,17 @@ FRAMES = {
     }.items()
     for rule in ("certified", "paper")
 }
+SPIRALS = CONFIGS[0].with_(vecsum="general")
+FRAMES |= {
+    f"{scene}-1-{rule}": (scene, SPIRALS.with_(rule=rule), *size)
+    for scene, size in {spirals.MIXED: (32, 24), "shell": (24, 18)}.items()
+    for rule in ("certified", "paper")
+}
 
 
 def compiled_frame(scene, config, width, height):
-    """Words of a scene in ``scenes/`` at another size."""
-    return compile_scene(load_scene(ROOT / "scenes" / f"{scene}.toml", width, height), config)
+    """Words of a scene in ``scenes/`` or ``tb/scenes/`` at another size."""
+    return compile_scene(spirals.load(scene, width, height), config)
 
 
 # ---- one polynomial through the ring ----
@@ -76,10 +86,33 @@ def ring(b, n1, steps, width, roots=4, rule="certified", box=(0, 0, 0), ends=(0,
     first[C : C + 6] = words(ends)
     first[DEPTH : DEPTH + 2] = words((1 << 20, (1 << 31) - 1))
     first[B : B + degree + 1] = words(b)
-    cells, nodes = zeros((degree << n1) + 1), zeros((n1 + 1) * (degree + 1))
+    return traced(item, first, zeros(FORM_WORDS), n1, steps, width, degree, 0)
+
+
+def traced(item, first, form, n1, steps, width, degree, general):
+    """(t of the hits, depths, points, steps, last t) of an item."""
+    fixed = form, new_work(n1, degree), n1, steps, width, degree, general
     t, depth, point = np.full(4, -1, np.int64), np.zeros(4, np.int32), np.zeros((4, 3), np.int32)
-    hits = trace(item, first, cells, nodes, n1, steps, width, degree, t, depth, point, 0)
+    hits = trace(item, first, *fixed, t, depth, point, 0)
     return [int(v) for v in t[:hits]], depth[:hits].tolist(), point[:hits].tolist(), int(item[STEPS]), int(item[T])
+
+
+# ---- one chord of a spiral through the ring ----
+
+
+def random_chords(count=9):
+    """Arguments of :func:`traced`: rays of every spiral and n1 by both rules, some between any points within reach."""
+    rng = random.Random(SEED)
+    reach = 7 << COORD_FRAC - 2
+    for general, surfaces in enumerate((spirals.HELIX, spirals.GENERAL)):
+        for (name, index), n1 in product(surfaces, (1, 2, 3, 4)):
+            found = spirals.surface(name, index, n1)
+            for _, _, item, first in rng.sample(list(spirals.rays(found)), count):
+                item[PAPER], item[ROOTS] = rng.getrandbits(1), rng.randint(1, 4)
+                if rng.random() < 0.3:
+                    first[C : C + 6] = words(rng.choice((-reach, reach, rng.randint(-reach, reach))) for _ in range(6))
+                ends(first, new_lanes(2), spirals.form(found), general)
+                yield item, first, spirals.form(found), n1, rng.randint(1, 32 // n1), 0, 1, general
 
 
 def random_polynomials(count=400):
@@ -115,6 +148,21 @@ def random_products(count=300):
         yield quads, quartic, width, degree
 
 
+def indicators(count=300):
+    """(name, values) of each spiral: at the corners of what a segment reaches, on the axis, and anywhere."""
+    rng = random.Random(SEED)
+    reach = 7 << COORD_FRAC - 2
+    points = [*product((-reach, reach), repeat=3), *product((-1, 0, 1), (-1, 0, 1), (-reach, 0, reach))]
+    points += [[rng.randint(-reach, reach) for _ in range(3)] for _ in range(count)]
+    lanes = new_lanes(len(points))
+    for axis, lane in enumerate((lanes.x, lanes.y, lanes.z)):
+        lane[:] = words(p[axis] for p in points)
+    for general, surfaces in enumerate((spirals.HELIX, spirals.GENERAL)):
+        for name, index in surfaces:
+            evaluate(lanes, len(points), spirals.form(spirals.surface(name, index, 3)), general)
+            yield f"{name} {index} {general}", np.array(lanes.value, np.int64)
+
+
 def results():
     """Everything that both ways of running the model are compared in, by name."""
     out = {}
@@ -129,6 +177,10 @@ def results():
         values = zeros(degree + 1)
         form(words(quads), quartic, values, 0, width, degree)
         out[f"product {index}"] = np.array([int(v) for v in values], np.int64)
+    for index, arguments in enumerate(random_chords()):
+        out[f"chord {index}"] = np.array([repr(traced(*arguments))])
+    for name, values in indicators():
+        out[f"indicator {name}"] = values
     return out
 
 
@@ -138,15 +190,15 @@ def interpreted_results(path):
     vectors = []
     plain = golden.scratch
 
-    def watched(config):
-        vectors.append(plain(config))
+    def watched(config, degree):
+        vectors.append(plain(config, degree))
         return vectors[-1]
 
     golden.scratch = watched
     out = results()
     assert vectors
-    for state, item, first, quads, cells, nodes in vectors:
-        for vector in (state.ravel(), item, first, quads, cells, nodes):
+    for state, item, first, quads, work in vectors:
+        for vector in (state.ravel(), item, first, quads, work.cells, work.nodes, *work.lanes):
             assert vector.dtype == object
             assert {type(v) for v in vector} <= {int, bool}, {type(v) for v in vector}
     assert max(max(map(abs, state.ravel())) for state, *_ in vectors) > 1 << 56  # the state is in there

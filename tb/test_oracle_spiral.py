@@ -30,7 +30,7 @@ def spiral(clip=None, **parameters):
 
 
 def centre(shape, s):
-    """The centre curve at s (N,), and the tube's radius there: (N, 3), (N,)."""
+    """The centre curve at s (...), and the tube's radius there: (..., 3), (...)."""
     a = shape.R + shape.R_growth * s
     curve = np.stack([a * np.cos(2 * np.pi * s), a * np.sin(2 * np.pi * s), shape.pitch * s], axis=-1)
     return curve, shape.r + shape.r_growth * s
@@ -69,15 +69,13 @@ def one(shape, h, e, **options):
 
 def value(s, points):
     """f at points (..., 3) as it is defined: rotate the point into each disk's half plane, try all disks and balls."""
-    x, y, z = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
+    x, y, z = np.moveaxis(points, -1, 0)
     theta = np.angle(x + 1j * y) / (2 * np.pi)
     theta = np.where(theta < 0, theta + 1, theta)
     best = np.full(x.shape, np.inf)
     for end in (0.0, s.turns):
-        a, phase = s.R + s.R_growth * end, 2 * np.pi * end
-        centre = np.array([a * np.cos(phase), a * np.sin(phase), s.pitch * end])
-        distance = np.linalg.norm(np.stack([x, y, z], axis=-1) - centre, axis=-1)
-        best = np.minimum(best, distance - (s.r + s.r_growth * end))
+        middle, radius = centre(s, end)
+        best = np.minimum(best, np.linalg.norm(points - middle, axis=-1) - radius)
     for m in range(int(s.turns) + 1):
         turn = m + theta
         distance = np.hypot(np.hypot(x, y) - s.R - s.R_growth * turn, z - s.pitch * turn) - s.r - s.r_growth * turn
@@ -173,7 +171,7 @@ def test_chord_ends_count():
     """Roots outside of the chord are none, and its ends add to the clearance where they are near."""
     for epsilon in (1e-3, 1e-7, 1e-12):
         for side, wanted in ((1, 0), (-1, 1)):
-            outside, rim = (2.0, 0.0, 0.0), (0.95 + side * epsilon, 0.0, 0.0)
+            outside, rim = (2.0, 0.3, -0.2), (0.95 + side * epsilon, 0.0, 0.0)
             for h, e in ((outside, rim), (rim, outside)):
                 roots, clearance = one(spiral(**RING), h, e)
                 assert len(roots) == wanted

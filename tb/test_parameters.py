@@ -28,8 +28,18 @@ CASES = [
     ("rdx_step", dict(W=49), "W = 49; allowed: 16 to 48"),
     ("rdx_ring", dict(U=0), "U = 0; allowed: 1 to K = 8"),
     ("rdx_ring", dict(U=9), "U = 9; allowed: 1 to K = 8"),
-    ("rdx_raster", dict(D=3), "D = 3; allowed: 2 (quadrics) or 4 (quartics too)"),
+    ("rdx_raster", dict(D=3), "D = 3; allowed: 4 (quartics too), 2 (quadrics) or 0 (none)"),
     ("rdx_product", dict(D=3), "D = 3; allowed: 2 (quadrics) or 4 (quartics too)"),
+    ("rdx_core", dict(Vecsum=3), "Vecsum = 3; allowed: 0 none (where D > 0), 1 helix, 2 general"),
+    ("rdx_core", dict(D=0), "Vecsum = 0; allowed: 0 none (where D > 0), 1 helix, 2 general"),
+    ("rdx_lanes", dict(Lanes=0), "Lanes = 0; allowed: 1 to Points = 7, which is at most 15"),
+    ("rdx_lanes", dict(Lanes=8), "Lanes = 8; allowed: 1 to Points = 7, which is at most 15"),
+    ("rdx_lanes", dict(Points=16), "Lanes = 7; allowed: 1 to Points = 16, which is at most 15"),
+    ("rdx_line", dict(Depth=1), "Depth = 1; allowed: 2 or more"),
+    ("rdx_multiply", dict(W=48), "W = 48; allowed: at most 47 with Drop = 25"),
+    ("rdx_cordic", dict(Iterations=0), "Iterations = 0; allowed: 1 to 32, and at most W = 38"),
+    ("rdx_cordic", dict(Iterations=33), "Iterations = 33; allowed: 1 to 32, and at most W = 38"),
+    ("rdx_cordic", dict(W=27), "Iterations = 28; allowed: 1 to 32, and at most W = 27"),
 ]
 UNREACHABLE = {"rdx_carry: CoordWidth"}  # compares two constants of rdx_pkg
 

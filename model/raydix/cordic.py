@@ -75,7 +75,7 @@ def vectoring(x, y, angle, count, iterations, still):
 def lengths(x, y, count, iterations):
     """The same without the angle: K times the length of (x, y) into ``x``; ``y`` is destroyed.
 
-    The length is right to 2^-(2*iterations) of itself, so half as many iterations do as for the angle.
+    The length is right to 2^-(2*iterations-1) of itself, so half as many iterations do as for the angle.
     """
     for j in range(count):
         x[j] = abs(x[j])

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Number formats and field widths: the one table.
 
-``rtl/rdx_pkg.sv`` (the block between its markers) and ``docs/number-formats.md`` are generated from here:
+The blocks between markers in ``rtl/rdx_pkg.sv``, ``rdx_form.svh``, ``rdx_form.sv``, ``rdx_cordic.sv`` (its angles) and
+``docs/number-formats.md`` are generated from here:
 ``python -m raydix.formats --write``; without ``--write`` the exit status tells whether they agree.
 
 A format token is ``s<I>p<F>`` (signed, ``I`` integer bits with the sign, ``F`` fractional) or ``u<I>p<F>``.
@@ -39,7 +40,7 @@ PIXEL_WIDTH = 12
 SURFACE_WIDTH = 6
 ROOTS_WIDTH = 3
 BOX_WIDTH = 5
-STEPS_WIDTH = 10
+STEPS_WIDTH = 12
 COORD_LANES = 6
 HEADER_WORDS = 3
 QUADRIC_WORDS = HEADER_WORDS + 3 * COORD_LANES + 18
@@ -107,14 +108,14 @@ TABLE = (
     Constant("CoordAccWidth", COORD_ACC_WIDTH, "s2p46", "forward-difference accumulator of a coordinate"),
     Constant("DepthWidth", DEPTH_WIDTH, "s1p31", "camera depth in units of the frame's scale; never negative"),
     Constant("QuadAccWidth", QUAD_ACC_WIDTH, "s64p0", "accumulator of a quadric's control point, magnitude below 2^62"),
-    Constant("OperandWidth", OPERAND_WIDTH, "s36p0", "operand of the quartic product: accumulator / 2^27, half up"),
+    Constant("OperandWidth", OPERAND_WIDTH, "s36p0", "operand of a product; quartic: accumulator / 2^27, half up"),
     Constant("OperandShift", OPERAND_SHIFT, "", "bits dropped from an accumulator to make an operand"),
     Constant("ProductDrop", PRODUCT_DROP, "", "bits dropped (floor) from the product of two operands"),
     Constant("PixelWidth", PIXEL_WIDTH, "u12p0", "pixel column or row"),
     Constant("SurfaceWidth", SURFACE_WIDTH, "u6p0", "surface number"),
     Constant("RootsWidth", ROOTS_WIDTH, "u3p0", "roots still wanted, 1 to 4"),
     Constant("BoxWidth", BOX_WIDTH, "u5p0", "box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts"),
-    Constant("StepsWidth", STEPS_WIDTH, "u10p0", "steps taken; at the largest value the item is given up"),
+    Constant("StepsWidth", STEPS_WIDTH, "u12p0", "steps taken; at the largest value the item is given up"),
     Constant("CoordLanes", COORD_LANES, "", "x, y, z at the near end h and the far end e"),
     Constant("VectorWidth", VECTOR_WIDTH, "s5p33", "lengths in the vector-sum evaluator; the indicator"),
     Constant("VectorFrac", VECTOR_FRAC, "", "fractional bits of such a length"),
