@@ -16,7 +16,6 @@ from raydix.raster import load_lanes
 from raydix.scene import load_scene
 from test_random_scenes import TYPES, scene_text
 
-
 SIZES = [(1, 1), (1, 3), (2, 1), (3, 2), (9, 7)]
 
 

@@ -7,26 +7,45 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import latency
+import spirals
 from raydix.compile import compile_scene
-from raydix.config import Config
+from raydix.config import VECSUMS, Config
+from raydix.fit import families
 from raydix.golden import trace_golden
 from raydix.hits import differing_bits
 from raydix.rtl import RtlError, _collect, trace_rtl
-from raydix.scene import load_scene
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 EVERY = sorted(path.stem for path in SCENES.glob("*.toml"))
 QUADRICS = ("cone", "cylinder", "ellipsoid", "hyperboloid", "hyperboloid_one_sheet", "paraboloid", "saddle", "sphere")
 
 # One build each: n1, K, W, D, U and rules that differ in everything; then the scenes that are run on it, small.
+# With vector sums beside the algebraic surfaces, and alone.
 BUILDS = {
-    "reference, both rules, one unit": (Config(3, 8, 36, 4, 1, "both"), EVERY),
-    "paper's digits one by one, n = 20": (Config(1, 20, 24, 4, 3, "both"), ("torus", "glass", "gallery")),
-    "n1 = 2, n = 32, K not a multiple of U": (Config(2, 16, 40, 4, 3, "both"), ("cyclide", "glass", "saddle")),
-    "n1 = 4, certified only": (Config(4, 6, 36, 4, 2, "certified"), ("torus", "quartic", "glass")),
+    "reference, both rules, one unit": (
+        Config(3, 8, 36, 4, 1, "both", vecsum="general", lanes=3, vector_units=2),
+        (*EVERY, spirals.MIXED),
+    ),
+    "paper's digits one by one, n = 20": (
+        Config(1, 20, 24, 4, 3, "both", vecsum="general"),
+        ("torus", "glass", "gallery", "flat_spiral", spirals.MIXED),
+    ),
+    "n1 = 2, n = 32, K not a multiple of U": (
+        Config(2, 16, 40, 4, 3, "both", vecsum="helix"),
+        ("cyclide", "glass", "saddle", "spiral", spirals.HELICES),
+    ),
+    "n1 = 4, certified only": (
+        Config(4, 6, 36, 4, 2, "certified", vecsum="general", lanes=1),
+        ("torus", "quartic", "glass", "shell", spirals.MIXED),
+    ),
     "quadrics only, full pipeline": (Config(3, 8, 32, 2, 8, "certified"), QUADRICS),
     "quadrics, paper only, n1 = 4, n = 32": (Config(4, 8, 36, 2, 1, "paper", "paper"), ("quadric", "plane", "cone")),
     "one step": (Config(3, 1, 16, 2, 1, "both"), ("sphere", "hyperboloid")),
+    "vector sums only, full pipeline": (
+        Config(2, 4, degree=0, units=1, rules="certified", vecsum="helix", vector_units=4),
+        ("spiral",),
+    ),
 }
 CASES = [
     pytest.param(config.with_(rule=rule), scene, id=f"{name}-{scene}-{rule}")
@@ -36,10 +55,21 @@ CASES = [
 ]
 
 
+def test_every_scene_is_run():
+    """Each scene of ``scenes/`` stands in a build that can do it."""
+    for scene in EVERY:
+        needed = families(spirals.load(scene, 8, 6))
+        configs = [config for config, scenes in BUILDS.values() if scene in scenes]
+        assert configs, scene
+        for config in configs:
+            assert config.degree >= needed["degree"], scene
+            assert VECSUMS.index(config.vecsum) >= VECSUMS.index(needed["vecsum"]), scene
+
+
 @functools.cache
 def compiled_frame(scene, width, height, config):
     """The words of a scene and the golden model's hits."""
-    compiled = compile_scene(load_scene(SCENES / f"{scene}.toml", width, height), config)
+    compiled = compile_scene(spirals.load(scene, width, height), config)
     return compiled, trace_golden(compiled, config)
 
 
@@ -72,6 +102,16 @@ def test_one_unit_does_one_step_a_clock():
     rtl = trace_rtl(compiled, config)
     assert differing_bits(golden, rtl) == 0
     assert rtl.cycles <= 1.01 * rtl.counts()["steps"] + 500
+
+
+def test_vector_sums_take_a_place_each_phase():
+    """The unit of the vector-sum ring is never idle while rays wait: an item every ceil((J-1)/lanes) clocks."""
+    config = BUILDS["n1 = 4, certified only"][0]
+    compiled, golden = compiled_frame("shell", 200, 150, config)
+    rtl = trace_rtl(compiled, config)
+    assert differing_bits(golden, rtl) == 0
+    steps, phases = rtl.counts()["steps"], latency.phases(config.cells - 1, config.lanes)
+    assert phases * steps <= rtl.cycles <= 1.01 * phases * steps + 3000
 
 
 def test_difference_is_counted():

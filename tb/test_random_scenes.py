@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from raydix.accuracy import depth_errors
+from raydix.chords_spiral import random_spiral
 from raydix.config import Config
 from raydix.oracle import ideal_frame, ideal_hits
 from raydix.render import render_golden
 from raydix.scene import load_scene
 
-CLOSED = ("sphere", "ellipsoid", "torus", "cyclide")
+CLOSED = ("sphere", "ellipsoid", "torus", "cyclide", "spiral")
 WIDTH, HEIGHT = 96, 72
 SCENES_PER_TYPE = 8
 
@@ -23,6 +24,9 @@ def keys(kind, uniform):
     def ten():
         return [uniform(-1, 1) for _ in range(10)]
 
+    if kind == "spiral":
+        shape = random_spiral(random.Random(uniform(0, 1)))
+        return {key: getattr(shape, key) for key in ("R", "r", "pitch", "turns", "R_growth", "r_growth")}
     a = uniform(0.5, 1.5)
     return {
         "plane": {},
@@ -56,6 +60,7 @@ TYPES = tuple(
         "torus",
         "cyclide",
         "quartic",
+        "spiral",
     ]
 )
 
@@ -102,7 +107,7 @@ def test_random_scenes(kind, tmp_path):
         path = tmp_path / f"{kind}-{number}.toml"
         path.write_text(scene_text(kind, dice))
         scene = load_scene(path)
-        frame = render_golden(scene, Config(), 1)
+        frame = render_golden(scene, Config(vecsum="general"), 1)
         ideal = ideal_hits(scene, 0)
         count = np.zeros((HEIGHT, WIDTH), int)
         for found in frame.hits.surfaces:
