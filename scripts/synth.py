@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Size and clock of chosen modules on an ECP5-85F: yosys counts the cells, nextpnr places and routes them.
 
-    scripts/synth.py                        every design point of the table POINTS, but for those marked slow
+    scripts/synth.py                        every design point of the table POINTS; of those marked slow the counts only
     scripts/synth.py step-n1 product --json build/synth.json
     scripts/synth.py core --no-pnr          counts only
 
@@ -48,7 +48,7 @@ class Point:
     top: str
     parameters: dict[str, int] = field(default_factory=dict)
     flags: tuple[str, ...] = ()  # of synth_ecp5
-    slow: bool = False  # measured only where it is named
+    slow: bool = False  # placed and routed only where it is named
 
     def __str__(self):
         return " ".join([self.top, *(f"{name}={value}" for name, value in self.parameters.items()), *self.flags])
@@ -63,10 +63,10 @@ POINTS = {
     "cordic": Point("rdx_cordic", {"W": 38, "Iterations": 28, "Angle": 1}),
     "cordic-length": Point("rdx_cordic", {"W": 38, "Iterations": 16, "Angle": 0}),
     "vecsum": Point("rdx_vecsum", {"General": 0}),
-    "vecsum-general": Point("rdx_vecsum", {"General": 1}),
+    "vecsum-general": Point("rdx_vecsum", {"General": 1}, slow=True),
     "step-vector-n1": Point("rdx_step", {"N1": 1, "K": 24, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
-    "step-vector-n2": Point("rdx_step", {"N1": 2, "K": 12, "W": 38, "D": 1, "Rules": 1, "Lanes": 3}),
     "step-vector-lane": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
+    "step-vector-n2": Point("rdx_step", {"N1": 2, "K": 12, "W": 38, "D": 1, "Rules": 1, "Lanes": 3}, slow=True),
     "step-vector": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 7}, slow=True),
     "core": Point("rdx_core", {"N1": 3, "K": 8, "W": 36, "D": 4, "U": 1, "Rules": 1}, slow=True),
 }
@@ -362,7 +362,7 @@ def measure(name, options, tools, say: Callable[[str], None]):
     point = POINTS[name]
     folder, found, cached = synthesise(point, tools, say)
     row = Measured(name, point, count(found["cells"]), found["cells"], found["seconds"], cached)
-    if options.pnr:
+    if options.pnr and (not point.slow or options.name):
         row.placed, seconds, cached = place(point, folder, options.seed, tools, say)
         row.seconds, row.cached = row.seconds + seconds, row.cached and cached
     return row
@@ -419,7 +419,7 @@ def main(arguments=None):
     if options.write and (options.name or not options.pnr or options.seed != 1):
         print("synth: --write renews the whole table with seed 1: no NAME, no --no-pnr, no --seed", file=sys.stderr)
         return 2
-    names = list(dict.fromkeys(options.name)) or [name for name, point in POINTS.items() if not point.slow]
+    names = list(dict.fromkeys(options.name)) or list(POINTS)
     try:
         for name in names:
             check(name)
