@@ -22,7 +22,7 @@ from raydix.scene import Spiral
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "spirals.md"
-BAND = 0.01  # |cosine| between chord and normal below which t is ill-conditioned
+BAND = 1 / 64  # |cosine| between chord and normal below which t is ill-conditioned
 
 FAMILY = (
     ("certified", 1, 24),

@@ -350,28 +350,41 @@ def mismatch(number, inputs, lines):
     return AssertionError(f"item {number}, {replay}\n  {given}\n  " + "\n  ".join(lines))
 
 
-async def pipeline(dut, items, expect, latency, structs=None):
+async def pipeline(dut, items, expect, latency, structs=None, stall=0.0):
     """Give one item a clock, compare each output ``latency`` clocks later. Without clk_i: at once, ``latency`` 0.
 
     items    dictionaries of inputs: name of the port -> value
     expect   function of an item to the dictionary of outputs; None in place of an element that does not matter
     structs  name of the port -> Struct, for ports that are given as fields
+    stall    probability of a clock with en_i = 0, which does not count: noise stands at the inputs, nothing may move
     Returns the number of items, at least 1.
     """
     structs = structs or {}
     clocked = hasattr(dut, "clk_i")
     ports = {}
+    inputs = {}
     waiting = []
     count = 0
-    for item in itertools.chain(items, [None] * latency):
+    random = rng("stall")
+    if hasattr(dut, "en_i"):
+        dut.en_i.value = 1
+    for clock, item in enumerate(itertools.chain(items, [None] * latency)):
+        while inputs and random.random() < stall:
+            dut.en_i.value = 0
+            for name in inputs:
+                for handle in ports[name].handles:
+                    handle.value = random.getrandbits(ports[name].width)
+            await FallingEdge(dut.clk_i)
+            dut.en_i.value = 1
         if item is not None:
+            inputs = item
             for name, value in item.items():
                 if name not in ports:
                     ports[name] = Port(dut, name, structs.get(name))
                 ports[name].write(value)
             waiting.append(item)
         await (ReadOnly() if clocked else Timer(1, unit="ns"))
-        if len(waiting) > latency or item is None:
+        if clock >= latency:
             checked = waiting.pop(0)
             lines = []
             for name, value in expect(checked).items():

@@ -15,7 +15,7 @@ from raydix.oracle_spiral import spiral_chord_roots
 from raydix.scene import Spiral
 
 SPIRALS, CHORDS, SEED = 100, 1000, 7
-BAND = 0.01  # |cosine| between chord and normal below which t is ill-conditioned
+BAND = 1 / 64  # |cosine| between chord and normal below which t is ill-conditioned
 HELIX = Spiral(type="spiral", R=0.6, r=0.1, pitch=0.35, turns=3)
 
 

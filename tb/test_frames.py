@@ -43,8 +43,8 @@ BUILDS = {
     "quadrics, paper only, n1 = 4, n = 32": (Config(4, 8, 36, 2, 1, "paper", "paper"), ("quadric", "plane", "cone")),
     "one step": (Config(3, 1, 16, 2, 1, "both"), ("sphere", "hyperboloid")),
     "vector sums only, full pipeline": (
-        Config(2, 4, degree=0, units=1, rules="certified", vecsum="helix", vector_units=4),
-        ("spiral",),
+        Config(4, 6, degree=0, units=1, rules="certified", vecsum="general", lanes=1, vector_units=6),
+        ("spiral", "flat_spiral"),
     ),
 }
 CASES = [

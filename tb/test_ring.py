@@ -23,25 +23,32 @@ CERTIFIED, PAPER_RULE, BOTH = 1, 2, 3
 class Shape:
     """Parameters of the ring at hand; for vector sums (D = 1) a surface, whose constants go to the port."""
 
-    def __init__(self, dut, random):
-        names = ("N1", "K", "W", "D", "U", "Rules", "Lanes", "General")
-        self.n1, self.steps, self.width, self.degree, self.units, self.rules, lanes, self.general = (
-            bench.parameter(dut, n) for n in names
-        )
-        self.slots = bench.parameter(dut, "Slots")
-        self.phases = latency.phases((1 << self.n1) - 1, lanes) if self.degree == 1 else 1
+    def __init__(self, dut, random, **given):
+        def value(name):
+            return given[name] if name in given else bench.parameter(dut, name)
+
+        names = ("N1", "K", "W", "D", "U", "Rules")
+        self.n1, self.steps, self.width, self.degree, self.units, self.rules = map(value, names)
+        self.general = value("General") if self.degree == 1 else 0
+        self.phases = latency.phases((1 << self.n1) - 1, value("Lanes")) if self.degree == 1 else 1
+        self.slots = value("Slots")
         self.turn = self.slots * self.phases  # clocks
         self.work = new_work(self.n1, self.degree)
+        self.form, self.surface = None, None
         self.records = {}  # of rays seen
         if self.degree == 1:
-            found = spirals.surface(*random.choice(spirals.GENERAL if self.general else spirals.HELIX), self.n1)
-            self.form = spirals.form(found)
-            self.plain = []
-            self.firsts = [first for _, _, _, first in spirals.rays(found)]
-            bench.Port(dut, "form_i", bench.FORM).write(bench.form_fields(self.form))
-        else:
-            self.form = None
-            dut.form_i.value = 0
+            self.use(dut, random)
+
+    def use(self, dut, random):
+        """Take a surface, another one than before."""
+        choice = [s for s in (spirals.GENERAL if self.general else spirals.HELIX) if s != self.surface]
+        self.surface = random.choice(choice)
+        found = spirals.surface(*self.surface, self.n1)
+        self.form = spirals.form(found)
+        self.firsts = [first for _, _, _, first in spirals.rays(found)]
+        self.plain = []
+        self.records = {}
+        bench.Port(dut, "form_i", bench.FORM).write(bench.form_fields(self.form))
 
 
 def bernstein(roots, degree, width, sign):

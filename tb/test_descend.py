@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The ends of a chosen cell: RTL equals the model, and the cell's ends are the boundaries that were evaluated."""
+
+import cocotb
+import pytest
+
+import bench
+from raydix.cells import subdivide
+from test_carry import model, random_ends
+
+
+def cell(ends, pick, n1):
+    """Ends of cell ``pick`` by the golden model."""
+    lanes = [model(*line, pick, n1) for line in zip(ends["start"], ends["stop"], strict=True)]
+    depth = model(ends["depth_start"], ends["depth_stop"], pick, n1)
+    start, stop = ([lane[end] for lane in lanes] for end in range(2))
+    return {"start": start, "stop": stop, "depth_start": depth[0], "depth_stop": depth[1]}
+
+
+@cocotb.test
+async def equals_model(dut):
+    """Every cell of each of many segments, N1 clocks later, one a clock."""
+    random, n1 = bench.rng(), bench.parameter(dut, "N1")
+    await bench.start(dut)
+    segments = [random_ends(random) for _ in range(100)]
+    items = [{"ends_i": ends, "pick_i": pick} for ends in segments for pick in range(1 << n1)]
+    random.shuffle(items)
+
+    def expect(item):
+        return {"ends_o": cell(item["ends_i"], item["pick_i"], n1)}
+
+    await bench.pipeline(dut, items, expect, n1, {"ends_i": bench.ENDS, "ends_o": bench.ENDS})
+
+
+@cocotb.test
+async def ends_are_boundaries(dut):
+    """A cell's ends by the model are the boundaries of the segment halved as a whole, bit for bit."""
+    random, n1 = bench.rng("boundaries"), bench.parameter(dut, "N1")
+    for number in range(300):
+        ends = random_ends(random)
+        for start, stop in [*zip(ends["start"], ends["stop"], strict=True), (ends["depth_start"], ends["depth_stop"])]:
+            boundaries = [start, stop] + [0] * ((1 << n1) - 1)
+            subdivide(boundaries, 1, n1)
+            cells = [model(start, stop, pick, n1) for pick in range(1 << n1)]
+            if cells != [boundaries[j : j + 2] for j in range(1 << n1)]:
+                raise bench.mismatch(number, {"start": start, "stop": stop}, [f"{cells}, boundaries {boundaries}"])
+
+
+@pytest.mark.parametrize("n1", [1, 2, 3, 4])
+def test_descend(n1):
+    """Two to sixteen cells."""
+    bench.run(__name__, "rdx_descend", dict(N1=n1))

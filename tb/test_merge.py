@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Two streams into one: nothing lost or doubled, each in its order, an offer stays, and none waits for two others."""
+
+import cocotb
+from cocotb.triggers import FallingEdge, ReadOnly
+
+import bench
+
+
+async def clock_of(dut, offers, ready):
+    """Drive one clock; (valid_o, ready_o of both, data_o) when they have settled."""
+    dut.valid_i.value = sum((offer is not None) << i for i, offer in enumerate(offers))
+    for i, offer in enumerate(offers):
+        dut.data_i[i].value = offer or 0
+    dut.ready_i.value = int(ready)
+    await ReadOnly()
+    taken = int(dut.ready_o.value)
+    return bool(int(dut.valid_o.value)), [bool(taken >> i & 1) for i in range(2)], int(dut.data_o.value)
+
+
+async def merge(dut, random, data, idle, stall, count=400):
+    """``count`` items of each stream with ``data(stream)``: the streams of the transfers, in order."""
+    dut.valid_i.value = 0
+    dut.ready_i.value = 0
+    await bench.start(dut)
+    offers, left, order, held = [None, None], [count, count], [], None
+    others = [0, 0]  # transfers of the other stream since the offer
+    while any(left) or any(offer is not None for offer in offers):
+        for i in range(2):
+            if offers[i] is None and left[i] and random.random() >= idle[i]:
+                offers[i], others[i] = data(i), 0
+                left[i] -= 1
+        ready = random.random() >= stall
+        valid, taken, value = await clock_of(dut, offers, ready)
+        assert valid == any(offer is not None for offer in offers), "valid_o is that there is an offer"
+        moved = [i for i in range(2) if taken[i] and offers[i] is not None]
+        assert len(moved) == (valid and ready), f"ready_i = {ready}, transfers of {moved}"
+        if held is not None:
+            assert value == held, f"{held} became {value} before ready"
+        held = value if valid and not ready else None
+        for i in moved:
+            assert value == offers[i], f"stream {i}: {offers[i]} became {value}"
+            assert others[i] <= 1, f"stream {i} waited for {others[i]} others"
+            others[1 - i] += 1
+            order.append(i)
+            offers[i] = None
+        await FallingEdge(dut.clk_i)
+    assert sorted(order) == [0] * count + [1] * count
+    return order
+
+
+RATES = ((0.0, 0.0), (0.5, 0.5), (0.9, 0.2), (0.0, 0.7))
+
+
+@cocotb.test
+@cocotb.parametrize(idle=RATES, stall=(0.0, 0.3, 0.8))
+async def keeps_both_streams(dut, idle, stall):
+    """What is taken from a stream leaves in the same clock. Without idle clocks the streams take turns."""
+    random = bench.rng(f"{idle} {stall}")
+    order = await merge(dut, random, lambda i: random.getrandbits(1), idle, stall)
+    if not any(idle):
+        assert order == [0, 1] * (len(order) // 2)
+
+
+@cocotb.test
+@cocotb.parametrize(idle=RATES)
+async def offer_stays(dut, idle):
+    """The same where the value names the stream: an offer that waits is not exchanged for the other stream's."""
+    random = bench.rng(f"{idle}")
+    await merge(dut, random, lambda i: i, idle, 0.7)
+
+
+@cocotb.test
+async def reset_gives_turn_to_the_first(dut):
+    """After a reset in the middle of an offer of the second stream the first is taken, if both offer."""
+    dut.valid_i.value = 0
+    dut.ready_i.value = 0
+    await bench.start(dut)
+    for offers in ([None, 1], [0, 1]):
+        _, _, value = await clock_of(dut, offers, False)
+        assert value == 1
+        await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 1
+    _, taken, value = await clock_of(dut, [0, 1], True)
+    assert value == 0 and taken == [True, False]
+    await FallingEdge(dut.clk_i)
+
+
+def test_merge():
+    """Items of one bit; records of both rings pass it in the core's tests."""
+    bench.run(__name__, "rdx_merge")
