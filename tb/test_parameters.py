@@ -26,6 +26,8 @@ CASES = [
     ("rdx_step", dict(K=0), "K = 0; allowed: 1 to 10 (N1*K is at most 32)"),
     ("rdx_step", dict(W=15), "W = 15; allowed: 16 to 48"),
     ("rdx_step", dict(W=49), "W = 49; allowed: 16 to 48"),
+    ("rdx_step", dict(D=1), "D = 1 with W = 36, HalveStages = 1; allowed: 38, 1"),
+    ("rdx_step", dict(D=1, W=38, HalveStages=2), "D = 1 with W = 38, HalveStages = 2; allowed: 38, 1"),
     ("rdx_ring", dict(U=0), "U = 0; allowed: 1 to K = 8"),
     ("rdx_ring", dict(U=9), "U = 9; allowed: 1 to K = 8"),
     ("rdx_raster", dict(D=3), "D = 3; allowed: 4 (quartics too), 2 (quadrics) or 0 (none)"),
@@ -39,6 +41,7 @@ CASES = [
     ("rdx_multiply", dict(W=48), "W = 48; allowed: at most 47 with Drop = 25"),
     ("rdx_cordic", dict(Iterations=0), "Iterations = 0; allowed: 1 to 32, and at most W = 38"),
     ("rdx_cordic", dict(Iterations=33), "Iterations = 33; allowed: 1 to 32, and at most W = 38"),
+    ("rdx_cordic", dict(Still=19), "Still = 19; allowed: above 19, or Iterations"),
     ("rdx_cordic", dict(W=27), "Iterations = 28; allowed: 1 to 32, and at most W = 27"),
 ]
 UNREACHABLE = {"rdx_carry: CoordWidth"}  # compares two constants of rdx_pkg

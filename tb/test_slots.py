@@ -43,7 +43,7 @@ async def turning(dut, random, clocks, rate):
 
 
 @cocotb.test
-@cocotb.parametrize(rate=(1.0, 0.3, 0.05))
+@cocotb.parametrize(rate=(1.0, 0.3, 0.1))
 async def keeps_what_entered(dut, rate):
     """For many turns, from each of several resets on, one clock long, at any moment."""
     random = bench.rng(rate)
@@ -52,8 +52,8 @@ async def keeps_what_entered(dut, rate):
     turn = bench.parameter(dut, "Slots") * bench.parameter(dut, "Phases")
     compared = 0
     for _ in range(4):
-        compared += await turning(dut, random, random.randint(10, 14) * turn + random.randrange(turn), rate)
-    assert compared > 8 * bench.parameter(dut, "Slots"), f"{compared} values compared"
+        compared += await turning(dut, random, random.randint(30, 34) * turn + random.randrange(turn), rate)
+    assert compared > 3 * bench.parameter(dut, "Slots"), f"{compared} values compared"
 
 
 CASES = [dict(Slots=64), dict(Slots=7, Phases=1), dict(Slots=5, Phases=3), dict(Slots=2, Phases=15)]

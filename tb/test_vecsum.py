@@ -62,10 +62,11 @@ def random_sizes(random, general):
         "turns": random.choice((1, random.uniform(1, 6), 10 ** random.uniform(0, 2))),
     }
     if general:
-        grow = random.choice((0, random.uniform(-0.4, 0.6), 10 ** random.uniform(-2, 1)))
-        most = sign * 0.89 * math.hypot(sizes["pitch"], grow)
-        sizes["turns"] = random.choice((sizes["turns"], random.uniform(0.05, 1)))
-        sizes |= {"R_growth": grow, "r_growth": random.choice((0, random.uniform(-0.2, 0.4), most))}
+        sizes["turns"] = random.choice((sizes["turns"], sizes["turns"], random.uniform(0.05, 1)))
+        grow = random.choice((0, random.uniform(-1, 1) / sizes["turns"], 10 ** random.uniform(-2, 1)))
+        most, part = 0.89 * math.hypot(sizes["pitch"], grow), sizes["r"] / sizes["turns"]
+        swell = random.choice((0, random.uniform(-1, 2) * part, -min(most, 0.99 * part), most))
+        sizes |= {"R_growth": grow, "r_growth": swell}
     return sizes
 
 

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""First part of a step of an algebraic surface: cells, masks and the chosen cell are the model's, at their clocks."""
+
+import cocotb
+import pytest
+
+import bench
+from raydix.cells import subdivide
+from raydix.item import BOX, SIZE, C
+from raydix.outside import outside_cells
+from test_carry import random_ends
+from test_descend import cell
+
+
+def shape(dut):
+    """N1, K, W, D, HalveStages, Wait."""
+    return [bench.parameter(dut, name) for name in ("N1", "K", "W", "D", "HalveStages", "Wait")]
+
+
+def stimuli(dut, count):
+    """Control (any, with a box at each of several sizes), segment, and the cell that will be chosen."""
+    n1, steps, width, degree, *_ = shape(dut)
+    random, control = bench.rng(), bench.control(n1 * steps)
+    for b in bench.vectors(random, width, degree + 1, count):
+        fields = control.unpack(random.getrandbits(control.width)) | dict(box=random.choices((0, 0, 1, 2, 5, 31), k=3))
+        yield dict(control_i=fields, segment_i=random_ends(random) | dict(b=b), pick=random.randrange(1 << n1))
+
+
+def model(dut, item):
+    """Boundary values, mask of cells outside, chosen cell."""
+    n1, _, _, degree, *_ = shape(dut)
+    control, segment = item["control_i"], item["segment_i"]
+    cells = [*segment["b"], *[0] * ((1 << n1) * degree - degree)]
+    subdivide(cells, degree, n1)
+    state = [0] * SIZE
+    state[BOX : BOX + 3], state[C : C + 6] = control["box"], segment["start"] + segment["stop"]
+    outside = outside_cells(state, [0] * ((1 << n1) + 1), n1)
+    at = item["pick"] * degree
+    return cells, outside, cell(segment, item["pick"], n1) | dict(b=cells[at : at + degree + 1])
+
+
+@cocotb.test
+async def equals_model(dut):
+    """An item each clock: cells and masks after N1*HalveStages clocks, the cell a clock after a choice Wait later."""
+    n1, steps, width, degree, stages, wait = shape(dut)
+    control, segment = bench.control(n1 * steps), bench.segment(width, degree)
+    structs = dict(control_i=control, control_o=control, segment_i=segment, cell_o=segment)
+    items = list(stimuli(dut, 300))
+    answers = [model(dut, item) for item in items]
+    await bench.start(dut)
+
+    def first(number):
+        cells, outside, _ = answers[number]
+        return dict(control_o=items[number]["control_i"], cells_o=cells, outside_o=outside)
+
+    await given(dut, items, first, n1 * stages, n1 * stages + wait, structs)
+    await given(dut, items, lambda number: dict(cell_o=answers[number][2]), n1 * stages + wait + 1,
+                n1 * stages + wait, structs)  # fmt: skip
+
+
+async def given(dut, items, expect, latency, choice, structs, every=1, fill=None):
+    """Items one after the other, each one's choice ``choice`` clocks later; what ``expect`` names ``latency`` later.
+
+    every  an item so many clocks, with ``fill()`` between them
+    """
+
+    def clocks():
+        count = len(items) * every + choice + latency
+        for clock in range(count):
+            place, phase = divmod(clock, every)
+            item = items[place] if phase == 0 and place < len(items) else fill() if fill else items[0]
+            chosen, late = divmod(clock - choice, every)
+            pick = items[chosen]["pick"] if late == 0 and 0 <= chosen < len(items) else 0
+            inputs = {name: value for name, value in item.items() if name != "pick"} | dict(pick_i=pick)
+            if every > 1:
+                inputs |= dict(phase_i=phase)
+            yield Numbered(inputs, place if phase == 0 and place < len(items) else None)
+
+    def answer(inputs):
+        return {} if inputs.number is None else expect(inputs.number)
+
+    await bench.pipeline(dut, clocks(), answer, latency, structs)
+
+
+class Numbered(dict):
+    """Inputs of a clock and the number of the item that they are; None: of none."""
+
+    def __init__(self, inputs, number):
+        super().__init__(inputs)
+        self.number = number
+
+
+SETS = [
+    dict(N1=3, K=8, W=36, D=4, HalveStages=2, Wait=1),
+    dict(N1=1, K=32, W=16, D=2, HalveStages=1, Wait=3),
+    dict(N1=4, K=2, W=48, D=3, HalveStages=0, Wait=5),
+]
+
+
+@pytest.mark.parametrize("parameters", SETS, ids=bench.label)
+def test_split(parameters):
+    """The reference; two cells; sixteen without registers in the halvers."""
+    bench.run(__name__, "rdx_split", parameters)
