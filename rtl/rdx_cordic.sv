@@ -8,9 +8,10 @@
 //            constant 0 and not built. From iteration Still on x stays as it is: it would change by less than an ulp
 //            where 2*Still > W. The length is right to 2^-(2*Iterations-1) of itself, the angle to 2^-Iterations.
 // Rounding   down, once in x and once in y in each iteration; the table of angles to nearest.
-// Overflow   cannot happen where K times the length is below 2^(W-1).
+// Overflow   cannot happen where K times the length plus Iterations is below 2^(W-1).
 // Timing     latency Iterations + 1 clocks in which en_i = 1, one vector a clock; no reset.
-// Error      x: at most Iterations ulp beside the angle that is left; docs/modules/cordic.md
+// Error      angle left: atan(2^(1-n)) + asin((n-1)/length); x: n-1 ulp beside what that takes; angle_o: that and the
+//            table's half ulps; n = Iterations. Derived in tb/test_cordic.py
 // Model      model/raydix/cordic.py
 `default_nettype none
 
@@ -29,8 +30,8 @@ module rdx_cordic #(
 );
   import rdx_pkg::*;
 
-  if (Iterations < 1 || Iterations > 32 || Iterations > W) begin : gen_illegal_iterations
-    $fatal(1, "rdx_cordic: Iterations = %0d; allowed: 1 to 32, and at most W = %0d", Iterations, W);
+  if (Iterations < 1 || Iterations > 32 || Iterations + 3 > W) begin : gen_illegal_iterations
+    $fatal(1, "rdx_cordic: Iterations = %0d; allowed: 1 to 32, and at most W - 3 = %0d", Iterations, W - 3);
   end
 
   if (Still < Iterations && 2 * Still <= W) begin : gen_illegal_still

@@ -39,6 +39,7 @@ from raydix.rtl import RTL, sources
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "synth"
+PAGE = ROOT / "docs" / "synthesis.md"
 
 
 @dataclass(frozen=True)
@@ -416,8 +417,8 @@ def main(arguments=None):
     if unknown:
         print(f"synth: found {', '.join(unknown)}; allowed: {', '.join(POINTS)}", file=sys.stderr)
         return 2
-    if options.write and (options.name or not options.pnr or options.seed != 1):
-        print("synth: --write renews the whole table with seed 1: no NAME, no --no-pnr, no --seed", file=sys.stderr)
+    if options.write and (not options.pnr or options.seed != 1):
+        print("synth: --write needs clocks of seed 1: no --no-pnr, no --seed", file=sys.stderr)
         return 2
     names = list(dict.fromkeys(options.name)) or list(POINTS)
     try:
@@ -432,7 +433,9 @@ def main(arguments=None):
             options.json.write_text(json.dumps([as_json(row, options) for row in rows], indent=2) + "\n")
         if options.write:
             header = [column.replace("\n", " ") for column in COLUMNS[:-1]]
-            write_table(ROOT / "docs" / "synthesis.md", "synthesis", header, [texts(row)[:-1] for row in rows])
+            cells = {row.name: texts(row)[:-1] for row in rows}
+            kept = {name: row for name, row in written().items() if name in POINTS} | cells
+            write_table(PAGE, "synthesis", header, [kept[name] for name in POINTS if name in kept])
     except (SynthError, OSError, ValueError) as error:
         print(f"synth: {error}", file=sys.stderr)
         return 2
@@ -440,6 +443,13 @@ def main(arguments=None):
         print(f"synth: interrupted; what was finished is kept in {shown(BUILD)}", file=sys.stderr)
         return 130
     return 0
+
+
+def written():
+    """Rows of the table in the page, by name."""
+    block = PAGE.read_text().split("BEGIN generated: synthesis -->")[1].split("<!-- END")[0]
+    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
+    return {row[0]: row for row in ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)}
 
 
 def parse(arguments):
@@ -450,7 +460,7 @@ def parse(arguments):
     parser.add_argument("--seed", type=int, default=1, help="of place and route (default: 1)")
     parser.add_argument("--jobs", type=positive, default=1, help="points at a time (default: 1)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers to FILE, too")
-    parser.add_argument("--write", action="store_true", help="renew the table in docs/synthesis.md")
+    parser.add_argument("--write", action="store_true", help="renew the rows measured in docs/synthesis.md")
     return parser.parse_args(arguments)
 
 

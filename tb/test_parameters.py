@@ -39,10 +39,10 @@ CASES = [
     ("rdx_lanes", dict(Points=16), "Lanes = 7; allowed: 1 to Points = 16, which is at most 15"),
     ("rdx_line", dict(Depth=1), "Depth = 1; allowed: 2 or more"),
     ("rdx_multiply", dict(W=48), "W = 48; allowed: at most 47 with Drop = 25"),
-    ("rdx_cordic", dict(Iterations=0), "Iterations = 0; allowed: 1 to 32, and at most W = 38"),
-    ("rdx_cordic", dict(Iterations=33), "Iterations = 33; allowed: 1 to 32, and at most W = 38"),
+    ("rdx_cordic", dict(Iterations=0), "Iterations = 0; allowed: 1 to 32, and at most W - 3 = 35"),
+    ("rdx_cordic", dict(Iterations=33), "Iterations = 33; allowed: 1 to 32, and at most W - 3 = 35"),
     ("rdx_cordic", dict(Still=19), "Still = 19; allowed: above 19, or Iterations"),
-    ("rdx_cordic", dict(W=27), "Iterations = 28; allowed: 1 to 32, and at most W = 27"),
+    ("rdx_cordic", dict(W=27), "Iterations = 28; allowed: 1 to 32, and at most W - 3 = 24"),
 ]
 UNREACHABLE = {"rdx_carry: CoordWidth"}  # compares two constants of rdx_pkg
 

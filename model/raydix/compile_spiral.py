@@ -57,7 +57,7 @@ def epsilon(tube: Tube, scale, digits: int):
     Source: docs/spirals.md, "Error of the evaluator".
     """
     lipschitz, _ = bounds(tube, tube.clear)
-    return mp.ldexp((2 * digits + 16) * lipschitz + 32 * tube.slant * scale, -31)
+    return mp.ldexp((2 * digits + 16) * lipschitz + 32 * tube.slant * scale + 2 * tube.turns, -31)
 
 
 def _thinnest(tube: Tube, near):
