@@ -125,10 +125,18 @@ def test_unknown_module_or_parameter(synth, capsys):
     assert "no parameter Wide" in refused(synth, capsys, "parameter", "--no-pnr")
 
 
-def test_table_is_written_whole_only(synth, capsys):
-    """--write with a part of the points, or without a clock, is refused."""
-    for arguments in (["tiny"], ["--no-pnr"], ["--seed", "2"]):
+def test_table_is_written_with_clocks_only(synth, capsys):
+    """--write without a clock, or with that of another seed, is refused."""
+    for arguments in (["--no-pnr"], ["--seed", "2"]):
         assert "--write" in refused(synth, capsys, "--write", *arguments)
+
+
+def test_rows_of_the_page_are_read_back():
+    """The table in the page has rows of the script's design points, each with all columns but the time."""
+    synth = load()
+    rows = synth.written()
+    assert rows and set(rows) <= set(synth.POINTS)
+    assert {len(row) for row in rows.values()} == {len(synth.COLUMNS) - 1}
 
 
 @pytest.mark.parametrize("name", load().POINTS)
