@@ -363,7 +363,7 @@ async def indicator_is_that_at_the_ends(dut):
             if after["status"] == RUN and copy[B : B + 2].tolist() != moved["b"]:
                 raise bench.mismatch(number, segment, [f"values {moved['b']}, at the ends {copy[B : B + 2]}"])
             hits += after["status"] == HIT
-    assert hits > 10, f"{hits} hits"
+    assert hits > 1, f"{hits} hits"
 
 
 SETS = [
