@@ -17,9 +17,14 @@ from raydix.scene import load_scene
 from raydix.step import new_work, step
 from raydix.vecsum import new_lanes
 
-MIXED, HELICES = "mixed", "helices"  # of tb/scenes
-HELIX = (("spiral", 0), (HELICES, 0), (HELICES, 2))  # scene, surface: what the evaluator without General does
-GENERAL = (("shell", 0), ("flat_spiral", 0), (MIXED, 0), (MIXED, 3), (HELICES, 0))  # and what the other does, too
+MIXED, HELICES, COIL = "mixed", "helices", "coil"  # of tb/scenes
+HELIX = (
+    ("spiral", 0),
+    (HELICES, 0),
+    (HELICES, 2),
+    (COIL, 0),
+)  # scene, surface: what the evaluator without General does
+GENERAL = (("shell", 0), ("flat_spiral", 0), (MIXED, 0), (MIXED, 3), (HELICES, 0), (COIL, 1))  # and what the other does
 
 
 def load(name, width, height):

@@ -257,7 +257,7 @@ async def equals_model(dut, idle, stall):
     shape = await start(dut, random)
     if shape.degree == 1:
         rays, wanted = [], {0, 1, 2}
-        while wanted or len(rays) < 50:
+        while wanted or len(rays) < 40:
             rays.append(random_ray(random, shape, len(rays)))
             wanted.discard(sum(r["hit"] for r in model(shape, *rays[-1])))
     else:
