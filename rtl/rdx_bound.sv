@@ -6,10 +6,10 @@
 // cell holds none if the sum is above the curvature, or both are above a quarter of it. Both bounds depend on the zone: how
 // near to the axis the step's boundaries come.
 //
-// Formats    zone_i, level_i: of the item whose values come two clocks later; values_i: indicator at the J+1
+// Formats    zone_i, level_i: of the item whose values come three clocks later; values_i: indicator at the J+1
 //            boundaries, s5p33. possible_o: bit j for cell j.
 // Rounding   bounds are rounded up.
-// Timing     possible_o follows values_i by rdx_pkg::BoundLatency = 2 clocks, values_i the zone by 2; one item a clock.
+// Timing     possible_o follows values_i by rdx_pkg::BoundLatency = 2 clocks, values_i the zone by 3; one item a clock.
 // Model      model/raydix/bound.py
 `default_nettype none
 
@@ -32,27 +32,33 @@ module rdx_bound #(
   localparam type sum_t = logic [VectorWidth:0];
 
   // ---- the bounds: looked up, scaled to the cell, rounded up and cut to what a sum can be ----
-  bound_t lipschitz_q, curvature_q;
-  logic [5:0] from_level_q;
+  bound_t lipschitz_q, curvature_q, lipschitz_qq, curvature_qq;
+  logic [5:0] from_level_q, digits_q, digits_qq;
+  logic [6:0] bend_digits_qq;
   logic [4:0] level_q;
   sum_t most_q, bend_q;
-  logic curved_q;
+  logic curved_qqq, curved_q;
   function automatic sum_t cut(bound_t bound);
-    bound_t up;
-    up = bound + 1'b1;
-    return |up[BoundWidth-1:VectorWidth+1] ? '1 : up[VectorWidth:0];
-  endfunction
-  function automatic bound_t scaled(bound_t bound, logic [4:0] level, logic [6:0] digits);
-    return bound >> (7'(level) + 7'd1) * digits;
+    logic [BoundWidth:0] up;
+    up = (BoundWidth + 1)'(bound) + 1'b1;
+    return |up[BoundWidth:VectorWidth+1] ? '1 : up[VectorWidth:0];
   endfunction
   always_ff @(posedge clk_i) begin
+    // the zone's, and digits of t at the cell's end
     lipschitz_q <= form_i.lipschitz[zone_i];
     curvature_q <= form_i.curvature[zone_i];
     from_level_q <= form_i.from_level[zone_i];
     level_q <= level_i;
-    most_q <= cut(scaled(lipschitz_q, level_q, 7'(N1)));
-    bend_q <= cut(scaled(curvature_q, level_q, 7'(2 * N1)));
-    curved_q <= 6'(level_q) >= from_level_q;
+    digits_q <= (6'(level_i) + 6'd1) * 6'(N1);
+    // the curvature is that of from_level
+    lipschitz_qq <= lipschitz_q;
+    curvature_qq <= curvature_q;
+    digits_qq <= digits_q;
+    bend_digits_qq <= 7'(6'(level_q) - from_level_q) * 7'(2 * N1);
+    curved_qqq <= 6'(level_q) >= from_level_q;
+    most_q <= cut(lipschitz_qq >> digits_qq);
+    bend_q <= cut(curvature_qq >> bend_digits_qq);
+    curved_q <= curved_qqq;
   end
 
   // ---- first clock: magnitudes and their sums ----

@@ -30,8 +30,8 @@ package rdx_pkg;
   localparam int unsigned RootsWidth = 3;
   // u5p0: box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts
   localparam int unsigned BoxWidth = 5;
-  // u12p0: steps taken; at the largest value the item is given up
-  localparam int unsigned StepsWidth = 12;
+  // u16p0: steps taken; at the largest value the item is given up
+  localparam int unsigned StepsWidth = 16;
   // x, y, z at the near end h and the far end e
   localparam int unsigned CoordLanes = 6;
   // s5p33: lengths in the vector-sum evaluator; the indicator
@@ -51,9 +51,9 @@ package rdx_pkg;
   // of the CORDICs that find a length only
   localparam int unsigned LengthIterations = 16;
   // of the distance from the axis, each with bounds of its own
-  localparam int unsigned Zones = 8;
+  localparam int unsigned Zones = 16;
   // constants of a vector-sum surface
-  localparam int unsigned FormWords = 53;
+  localparam int unsigned FormWords = 77;
   // END generated
 
   typedef logic signed [CoordWidth-1:0] coord_t;

@@ -8,7 +8,7 @@
 // Formats    ends_o: coordinates s2p30 (the accumulator's s2p46, floor), depths s1p31. quads_o: accumulators s64p0 of
 //            q(h,h), q(h,e), q(e,e) of Q3, Q1, Q2; only those of Q3 are built for D = 2.
 // Rounding   floor of the coordinates; the lanes are exact.    Overflow   cannot happen: compile scales the lanes.
-// Timing     descriptor: a word a clock, 39, 75 or, of a vector sum, 74 words, whose constants wait for vector_idle_i. Rays:
+// Timing     descriptor: a word a clock, 39, 75 or, of a vector sum, 98 words, whose constants wait for vector_idle_i. Rays:
 //            one a clock, the first one clock after the last word.
 // Reset      control only.
 // Model      model/raydix/raster.py
@@ -57,7 +57,7 @@ module rdx_raster #(
   pixel_t x0_q, x1_q, y1_q;
   pixel_t x_q, y_q;
   logic quartic_q, vector_q;
-  logic [5:0] word_q;
+  logic [6:0] word_q;
   surface_t surface_q;
   roots_t roots_q;
   logic paper_q;
@@ -81,7 +81,7 @@ module rdx_raster #(
         Rectangle: if (load) state_q <= Depth;
         Depth:     if (load) state_q <= Load;
         Load:      if (load && all_end) state_q <= vector_q ? Form : Walk;
-        Form:      if (load && word_q == 6'(FormWords - 1)) state_q <= Walk;
+        Form:      if (load && word_q == 7'(FormWords - 1)) state_q <= Walk;
         default:   if (step && row_end && y_q == y1_q) state_q <= Header;
       endcase
     end

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The zone of a set of points: how near to the axis they come, as a power of two.
 //
-// The larger magnitude of x and y is a lower bound of a point's distance from the axis. Zone i > 0 is [2^(i-7), 2^(i-6)),
-// zone 0 what is below; the zone of a set is the least of its points.
+// The larger magnitude of x and y is a lower bound of a point's distance from the axis. Zone i > 0 is [2^(i-15),
+// 2^(i-14)), zone 0 what is below; the zone of a set is the least of its points.
 //
 // Formats    x_i, y_i: s2p30. zone_o: 0 to Zones - 1. A negative number's magnitude is taken one ulp less.
 // Timing     combinational

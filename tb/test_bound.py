@@ -11,8 +11,8 @@ from raydix.bound import bounded
 from raydix.formats import FORM_INDEX, FORM_WORDS, VECTOR_WIDTH, ZONES
 from raydix.kernel import zeros
 
-LATENCY = 4  # from zone and level
-EARLY = 2  # clocks in which they are ahead of the values
+LATENCY = 5  # from zone and level
+EARLY = 3  # clocks in which they are ahead of the values
 BOUND = 56  # bits
 MOST = bench.high(VECTOR_WIDTH)
 
@@ -35,9 +35,11 @@ def random_form(random):
 
 def stated(form, level, zone, n1):
     """Both bounds over a cell, exact, and whether the second holds."""
-    cell = 1 << n1 * (level + 1)
-    lipschitz, curvature = (int(form[FORM_INDEX[name] + zone]) for name in ("lipschitz", "curvature"))
-    return Fraction(lipschitz, cell), Fraction(curvature, cell**2), level >= form[FORM_INDEX["from_level"] + zone]
+    lipschitz, curvature, start = (
+        int(form[FORM_INDEX[name] + zone]) for name in ("lipschitz", "curvature", "from_level")
+    )
+    cell, since = 1 << n1 * (level + 1), 1 << 2 * n1 * max(level - start, 0)
+    return Fraction(lipschitz, cell), Fraction(curvature, since), level >= start
 
 
 def random_values(random, thresholds, count):
@@ -71,7 +73,7 @@ def model(form, item, n1):
 
 @cocotb.test
 async def equals_model(dut):
-    """Every bit of the mask is the model's, two clocks after the values, four after zone and level."""
+    """Every bit of the mask is the model's, two clocks after the values, five after zone and level."""
     random = bench.rng()
     n1 = bench.parameter(dut, "N1")
     steps = 32 // n1

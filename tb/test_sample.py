@@ -7,7 +7,7 @@ import pytest
 import bench
 import latency
 import spirals
-from raydix.bound import CURVATURE, FROM_LEVEL, LIPSCHITZ, possible
+from raydix.bound import limits, possible
 from raydix.formats import VECTOR_WIDTH
 from raydix.item import LEVEL, B
 from raydix.outside import outside_faces
@@ -40,11 +40,11 @@ def model(dut, found, item):
     form, work, state = spirals.form(found), new_work(n1, 1), item_of(item["control_i"], item["segment_i"])
     outside = outside_faces(state, work.cells, form, n1)
     zone = boundaries(state, work, form, n1, general)
-    values, shift, may = [int(v) for v in work.cells], n1 * (state[LEVEL] + 1), 0
+    values, may = [int(v) for v in work.cells], 0
     assert [values[0], values[-1]] == state[B : B + 2].tolist()
-    bounds = (form[LIPSCHITZ + zone] >> shift) + 1, (form[CURVATURE + zone] >> 2 * shift) + 1
+    bounds = limits(form, state[LEVEL], zone, n1)
     for j in range(1 << n1):
-        may |= possible(values[j], values[j + 1], *bounds, state[LEVEL] >= form[FROM_LEVEL + zone]) << j
+        may |= possible(values[j], values[j + 1], *bounds) << j
     changes = sum(((values[j] > 0) != (values[j + 1] > 0)) << j for j in range(1 << n1))
     pick = item["pick"]
     return values, outside, may, changes, cell(item["segment_i"], pick, n1) | dict(b=values[pick : pick + 2])

@@ -123,17 +123,18 @@ async def bounds_are_possible_cells(dut):
         item = flags(random, [max(v, -bench.high(width)) for v in cells], n1)
         level, zone, values = random.randrange(8), random.randrange(ZONES), item["cells_i"]
         form = [0] * FORM_WORDS
-        shift = n1 * (level + 1)
-        for name, digits in (("lipschitz", shift), ("curvature", 2 * shift)):
+        start, shift = random.choice((0, level, level + 1, 63)), n1 * (level + 1)
+        since = 2 * n1 * max(level - start, 0)
+        form[FORM_INDEX["from_level"] + zone] = start
+        for name, digits in (("lipschitz", shift), ("curvature", since)):
             sums = [abs(a) + abs(b) for a, b in zip(values, values[1:], strict=False)]
             bound = random.choice([*sums, max(0, random.choice(sums) - 1), random.getrandbits(width)])
             form[FORM_INDEX[name] + zone] = bound << digits | random.getrandbits(digits)  # rounded up: bound + 1
-        form[FORM_INDEX["from_level"] + zone] = random.choice((0, level, level + 1, 63))
-        bend = (form[FORM_INDEX["curvature"] + zone] >> 2 * shift) + 1
+        bend = (form[FORM_INDEX["curvature"] + zone] >> since) + 1
         most = (form[FORM_INDEX["lipschitz"] + zone] >> shift) + 1
         possible = 0
         for j, (a, b) in enumerate(zip(values, values[1:], strict=False)):
-            size, above = abs(a) + abs(b), a > 0 and b > 0 and level >= form[FORM_INDEX["from_level"] + zone]
+            size, above = abs(a) + abs(b), a > 0 and b > 0 and level >= start
             free = size > most or (above and (size > bend or min(abs(a), abs(b)) > bend >> 2))
             possible |= (not free) << j
         wanted = candidates(values, item["excluded_i"], item["last_i"], False, 1, n1, possible)

@@ -46,11 +46,13 @@ async def equals_model(dut):
 
 @cocotb.test
 async def equals_definition(dut):
-    """Zone i is [2^(i-7), 2^(i-6)), the first reaches to the axis, the last to the end of the range."""
+    """Zone i is [2^(i-15), 2^(i-14)), the first reaches to the axis, the last to the end of the range."""
     for number, (xs, ys) in enumerate(stimuli(dut)):
         near = min(max(v if v >= 0 else -v - 1 for v in point) for point in zip(xs, ys, strict=True)) / 2**COORD_FRAC
         zone = model(xs, ys)
-        if not ((zone == 0 or near >= 2.0 ** (zone - 7)) and (zone == ZONES - 1 or near < 2.0 ** (zone - 6))):
+        if not (
+            (zone == 0 or near >= 2.0 ** (zone + 1 - ZONES)) and (zone == ZONES - 1 or near < 2.0 ** (zone + 2 - ZONES))
+        ):
             raise bench.mismatch(number, {"x_i": xs, "y_i": ys}, [f"nearest {near}, the model's zone {zone}"])
 
 

@@ -11,9 +11,9 @@ FROM_LEVEL = FORM_INDEX["from_level"]
 
 @kernel
 def zone_of(near):
-    """Number of a zone, 0 to 7: the place of the leading one of ``near``, a lower bound of the distance from the axis.
+    """Number of a zone, 0 to 15: the place of the leading one of ``near``, a lower bound of the distance from the axis.
 
-    Zone i > 0 is [2^(i-7), 2^(i-6)), s2p30; zone 0 is what is below.
+    Zone i > 0 is [2^(i-15), 2^(i-14)), s2p30; zone 0 is what is below.
     """
     zone = 0
     while zone < ZONES - 1 and near >> (COORD_FRAC - ZONES + 2 + zone) != 0:
@@ -39,15 +39,21 @@ def possible(start, stop, lipschitz, curvature, curved):
 
 
 @kernel
+def limits(form, level, zone, n1):
+    """Lipschitz and curvature bound over a cell of a step, rounded up, and whether the second holds."""
+    below = level - form[FROM_LEVEL + zone]
+    lipschitz = (form[LIPSCHITZ + zone] >> n1 * (level + 1)) + 1
+    curvature = (form[CURVATURE + zone] >> 2 * n1 * max(below, 0)) + 1
+    return lipschitz, curvature, below >= 0
+
+
+@kernel
 def bounded(values, excluded, last, form, level, zone, n1):
     """Candidates of the certified rule among J cells whose boundary values are ``values``: mask, bit j for cell j.
 
     A cell whose ends differ in sign, and before the last level every cell that :func:`possible` leaves.
     """
-    shift = n1 * (level + 1)
-    lipschitz = (form[LIPSCHITZ + zone] >> shift) + 1
-    curvature = (form[CURVATURE + zone] >> (2 * shift)) + 1
-    curved = level >= form[FROM_LEVEL + zone]
+    lipschitz, curvature, curved = limits(form, level, zone, n1)
     mask = 0
     for j in range(1 << n1):
         if (values[j] > 0) != (values[j + 1] > 0) or (

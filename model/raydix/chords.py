@@ -11,13 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .config import Config
-from .core import scratch
-from .formats import COORD_FRAC, DEPTH_WIDTH
-from .item import DEPTH, PAPER, ROOTS, STEPS, B, C
-from .kernel import kernel
-from .product import product
-from .ring import trace
-from .surfaces import Form
+from .segments import Segments, products, trace_segments, whole
+from .surfaces import Form, form
 
 QUAD_SCALE = 2.0**61  # largest accumulator of Q1 and Q2 among the chords, and of Q3 as far as the product allows
 PRODUCT_SCALE = 2.0**-66
@@ -69,28 +64,15 @@ def chord_quads(shape: Form, h: np.ndarray, e: np.ndarray) -> np.ndarray:
     return np.concatenate([q3 * (f1 * f2 * PRODUCT_SCALE), q1 * f1, q2 * f2], axis=1).astype(np.int64)
 
 
+def chord_items(surface, h: np.ndarray, e: np.ndarray, config: Config) -> Segments:
+    """Chords (N, 3) through an algebraic surface, all in one scale, without a box."""
+    shape = form(surface)
+    return Segments(products(chord_quads(shape, h, e), shape.q1 is not None, config), whole(len(h)))
+
+
 def trace_chords(quads: np.ndarray, quartic: bool, config: Config, roots: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """The golden model on chords: t (N, roots) int64, -1 = none, and steps (N)."""
-    count = len(quads)
-    t = np.full(count * roots, -1, np.int64)
-    depth, point = np.zeros(count * roots, np.int64), np.zeros((count * roots, 3), np.int64)
-    steps = np.zeros(count, np.int64)
-    _, item, first, _, work = scratch(config, config.degree)
-    first[C : C + 3], first[C + 3 : C + 6] = 0, (1 << COORD_FRAC) - 1
-    first[DEPTH], first[DEPTH + 1] = 0, (1 << (DEPTH_WIDTH - 1)) - 1
-    item[PAPER] = config.rule == "paper"
-    parameters = config.n1, config.steps, config.width, config.degree
-    _run(quads, quartic, roots, *parameters, item, first, work, t, depth, point, steps)
-    return t.reshape(count, roots), steps
-
-
-@kernel
-def _run(quads, quartic, roots, n1, count, width, degree, item, first, work, t, depth, point, steps):
-    for i in range(len(quads)):
-        product(quads[i], quartic, first, B, width, degree)
-        item[ROOTS] = roots
-        trace(item, first, quads[i], work, n1, count, width, degree, 0, t, depth, point, i * roots)
-        steps[i] = item[STEPS]
+    return trace_segments(Segments(products(quads, quartic, config), whole(len(quads))), config, roots)
 
 
 def rates(t: np.ndarray, exact: np.ndarray, digits: int, steps: np.ndarray | None = None) -> Rates:

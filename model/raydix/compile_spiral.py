@@ -88,8 +88,7 @@ def _zones(tube: Tube, scale, length, n1) -> dict:
         level = 0
         while length * mp.ldexp(1, -n1 * (level + 1)) >= longest:
             level += 1
-        if curvature >= mp.ldexp(1, 22):  # does without
-            curvature, level = mp.mpf(0), NEVER
+        curvature = mp.ldexp(curvature, -2 * n1 * (level + 1))  # over a cell of that level
         lists["lipschitz"].append(lipschitz * length * squared)
         lists["curvature"].append(curvature)
         lists["from_level"].append(mp.mpf(min(level, NEVER)))

@@ -40,7 +40,7 @@ PIXEL_WIDTH = 12
 SURFACE_WIDTH = 6
 ROOTS_WIDTH = 3
 BOX_WIDTH = 5
-STEPS_WIDTH = 12
+STEPS_WIDTH = 16
 COORD_LANES = 6
 HEADER_WORDS = 3
 QUADRIC_WORDS = HEADER_WORDS + 3 * COORD_LANES + 18
@@ -53,7 +53,7 @@ TURN_WIDTH = 8 + TURN_FRAC
 ANGLE_ITERATIONS = 28
 ANGLE_STILL = 20
 LENGTH_ITERATIONS = 16
-ZONES = 8
+ZONES = 16
 LARGEST_ITERATIONS = 32  # of a CORDIC
 
 
@@ -74,7 +74,7 @@ class Field(NamedTuple):
 # K is the gain of the angle's CORDIC: lengths across the axis carry K, the indicator K^2.
 FORM = (
     Field("lipschitz", "u23p33", "bound of the indicator's change over the whole segment, in each zone", ZONES),
-    Field("curvature", "u23p33", "bound of half its second derivative over the whole segment, in each zone", ZONES),
+    Field("curvature", "u23p33", "bound of half its second derivative over a cell of from_level, in each zone", ZONES),
     Field("from_level", "u6p0", "first level at which the curvature bound holds, in each zone", ZONES),
     Field("guard", "s5p33", "1.5 K c, where c is the distance between axis and solid"),
     Field("low", "s2p30", "box: lowest coordinates inside", 3),
@@ -115,7 +115,7 @@ TABLE = (
     Constant("SurfaceWidth", SURFACE_WIDTH, "u6p0", "surface number"),
     Constant("RootsWidth", ROOTS_WIDTH, "u3p0", "roots still wanted, 1 to 4"),
     Constant("BoxWidth", BOX_WIDTH, "u5p0", "box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts"),
-    Constant("StepsWidth", STEPS_WIDTH, "u12p0", "steps taken; at the largest value the item is given up"),
+    Constant("StepsWidth", STEPS_WIDTH, "u16p0", "steps taken; at the largest value the item is given up"),
     Constant("CoordLanes", COORD_LANES, "", "x, y, z at the near end h and the far end e"),
     Constant("VectorWidth", VECTOR_WIDTH, "s5p33", "lengths in the vector-sum evaluator; the indicator"),
     Constant("VectorFrac", VECTOR_FRAC, "", "fractional bits of such a length"),
@@ -170,7 +170,7 @@ def form_loader() -> str:
         for i in range(field.count):
             place = f"{field.name}[{i}]" if field.count > 1 else field.name
             word = FORM_INDEX[field.name] + i
-            lines.append(f"      if (index_i == 6'd{word}) form_o.{place} <= word_i[{field.width - 1}:0];")
+            lines.append(f"      if (index_i == 7'd{word}) form_o.{place} <= word_i[{field.width - 1}:0];")
     return "\n".join(lines) + "\n"
 
 

@@ -15,7 +15,7 @@ class SurfaceHits:
     t      int64 (h, w, R), digits; -1 where there is no (further) root. In order of t.
     depth  int32 (h, w, R), s1p31 of the frame's depth scale; 0 where t is -1
     point  int32 (h, w, R, 3), s2p30 of the surface's local scale; 0 where t is -1
-    steps  int16 (h, w), steps that the item took
+    steps  uint16 (h, w), steps that the item took
     """
 
     surface: CompiledSurface
@@ -34,7 +34,7 @@ class SurfaceHits:
             np.full(shape, -1, np.int64),
             np.zeros(shape, np.int32),
             np.zeros((*shape, 3), np.int32),
-            np.zeros(shape[:2], np.int16),
+            np.zeros(shape[:2], np.uint16),
         )
 
 

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Worst rounding errors found, beside their bounds: each function measures one inequality of docs/error-analysis.md.
+
+All compare integers of the golden model with exact rational numbers. Each returns (bound, worst found) in the unit of
+the inequality; a single measurement where ``found > bound`` would refute the derivation.
+"""
+
+from fractions import Fraction
+from math import comb
+
+import numpy as np
+
+from .cells import subdivide
+from .config import Config
+from .error_bounds import coordinates, halving, product_error
+from .formats import OPERAND_SHIFT, PRODUCT_DROP, QUAD_ACC_WIDTH
+from .halve import average
+from .normalize import norm_limit, normalize, redundant_bits
+from .segments import products
+
+
+def part(b: list, start: Fraction, stop: Fraction) -> list[Fraction]:
+    """Bernstein coefficients on [start, stop] of the polynomial with coefficients ``b`` on [0, 1]: exact."""
+    degree, out = len(b) - 1, []
+    for k in range(degree + 1):
+        row = [Fraction(int(v)) for v in b]
+        for level in range(degree):
+            at = stop if level < k else start
+            row = [(1 - at) * x + at * y for x, y in zip(row, row[1:], strict=False)]
+        out.append(row[0])
+    return out
+
+
+def halving_error(b, digits: int, config: Config) -> tuple[float, Fraction, Fraction]:
+    """Control points of all cells of a descent to the cell ``digits`` of the last level.
+
+    Returns the bound, and the least and the largest of (computed - exact), in units of the first control points.
+    """
+    n1, steps, degree = config.n1, config.steps, config.degree
+    values = [int(v) for v in b]
+    cells = np.zeros((degree << n1) + 1, np.int64)
+    least = most = Fraction(0)
+    start, scale = Fraction(0), 1
+    for level in range(steps):
+        cells[: degree + 1] = values
+        subdivide(cells, degree, n1)
+        size = Fraction(1, 1 << n1 * (level + 1))
+        for j in range(1 << n1):
+            exact = part(b, start + j * size, start + (j + 1) * size)
+            for i in range(degree + 1):
+                off = Fraction(int(cells[j * degree + i]), scale) - exact[i]
+                least, most = min(least, off), max(most, off)
+        pick = digits >> n1 * (steps - 1 - level) & ((1 << n1) - 1)
+        start += pick * size
+        chosen = cells[pick * degree : (pick + 1) * degree + 1].copy()
+        scale <<= int(redundant_bits(chosen, 0, degree + 1, config.width, norm_limit(n1)))
+        normalize(chosen, 0, degree + 1, config.width, config.width, norm_limit(n1))
+        values = chosen.tolist()
+    return halving(n1, steps, degree), least, most
+
+
+def product_errors(quads: np.ndarray, config: Config) -> list[tuple[float, float]]:
+    """Control points of accumulators (N, 9) of quartics: (bound, largest |computed - exact|) of each, units of sWp0."""
+    computed, out = products(quads, True, config), []
+    for row, b in zip(quads.tolist(), computed.tolist(), strict=True):
+        (c0, c1, c2), (p0, p1, p2), (q0, q1, q2) = ([Fraction(v) for v in row[i : i + 3]] for i in (0, 3, 6))
+        unit = Fraction(1, 1 << 2 * OPERAND_SHIFT + PRODUCT_DROP)
+        exact = [
+            6 * (p0 * q0 * unit + c0),
+            3 * ((p0 * q1 + p1 * q0) * unit + c0 + c1),
+            (p0 * q2 + 4 * p1 * q1 + p2 * q0) * unit + c0 + 4 * c1 + c2,
+            3 * ((p1 * q2 + p2 * q1) * unit + c1 + c2),
+            6 * (p2 * q2 * unit + c2),
+        ]
+        if not any(b):
+            continue
+        # the scale: of all powers of two the one that fits the largest coefficient
+        place = max(range(5), key=lambda i: abs(b[i]))
+        shift = round(np.log2(abs(b[place]) / abs(float(exact[place])))) + QUAD_ACC_WIDTH - config.width
+        scale = Fraction(2) ** (shift - (QUAD_ACC_WIDTH - config.width))
+        largest = max(abs(v) for v in row[3:])
+        found = max(abs(v - e * scale) for v, e in zip(b, exact, strict=True))
+        out.append((product_error(shift, largest, config.width), float(found)))
+    return out
+
+
+def coordinate_error(start: int, stop: int, digits: int, config: Config) -> tuple[float, Fraction]:
+    """A coordinate at the middle of the cell ``digits``: (bound, computed - exact), units of s2p30."""
+    low, high = int(start), int(stop)
+    for bit in range(config.digits - 1, -1, -1):
+        middle = average(low, high)
+        low, high = (middle, high) if digits >> bit & 1 else (low, middle)
+    t = Fraction(2 * digits + 1, 2 << config.digits)
+    return coordinates(config.digits), average(low, high) - (int(start) + t * (int(stop) - int(start)))
+
+
+def polynomial(b: list, t: Fraction) -> Fraction:
+    """Value at t, exact."""
+    n = len(b) - 1
+    return sum(comb(n, i) * int(c) * t**i * (1 - t) ** (n - i) for i, c in enumerate(b))

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rounding errors of each stage: the bound that is derived, the worst that was found, and the slack between them."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+from raydix import stress_polynomials, stress_rays
+from raydix.blocks import write_table
+from raydix.chords import chord_quads
+from raydix.config import Config
+from raydix.error_measure import coordinate_error, halving_error, product_errors
+from raydix.segments import Segments, trace_segments, whole
+from raydix.surfaces import form
+
+ROOT = Path(__file__).resolve().parents[1]
+HEADER = ("inequality", "unit", "cases", "bound", "found", "found / bound")
+SHAPES = ((1, 24), (2, 12), (3, 8), (4, 6))
+
+
+def halving_rows(count: int, seed: int, degrees=(4, 2), shapes=SHAPES):
+    """Descents of the stress categories: (row, refuted) for each number of digits per step and degree."""
+    for degree in degrees:
+        for n1, steps in shapes:
+            config, dice = Config(n1, steps, degree=degree, units=1), np.random.default_rng(seed)
+            worst, least, cases, bound = 0.0, 0.0, 0, 0.0
+            for make in track(stress_polynomials.CATEGORIES.values(), f"halving {n1} {degree}", transient=True,
+                              console=Console(stderr=True)):  # fmt: skip
+                b = stress_polynomials.fitted(make(dice, count, degree), config.width)
+                t, _ = trace_segments(Segments(b, whole(len(b))), config)
+                for i in np.flatnonzero(t[:, 0] >= 0):
+                    bound, low, high = halving_error(b[i], int(t[i, 0]), config)
+                    worst, least, cases = max(worst, float(high)), min(least, float(low)), cases + 1
+            row = [f"halving above, D = {degree}, n1 = {n1}", "ulp of f", cases, bound, worst]
+            yield row, worst > bound or least < 0
+            yield [f"halving below, D = {degree}, n1 = {n1}", "ulp of f", cases, 0.0, -least], least < 0
+
+
+def product_rows(count: int, seed: int):
+    """Tori and grazing rays, where the terms cancel most: the largest part of the bound."""
+    config, dice = Config(units=1), np.random.default_rng(seed)
+    worst, cases = (0.0, 1.0), 0
+    for make in (stress_rays.grazing, stress_rays.thin, stress_rays.centre):
+        for surface, h, e in make(dice, count):
+            shape = form(surface)
+            if shape.q1 is None:
+                continue
+            for bound, found in product_errors(chord_quads(shape, h, e), config):
+                cases += 1
+                worst = max(worst, (found, bound), key=lambda pair: pair[0] / pair[1])
+    yield ["product, where nearest to its bound", "ulp of f", cases, worst[1], worst[0]], worst[0] > worst[1]
+
+
+def coordinate_rows(count: int, seed: int):
+    """Random segments and cells."""
+    config, dice = Config(units=1), np.random.default_rng(seed)
+    worst = least = bound = 0.0
+    for _ in range(count):
+        ends, digits = dice.integers(-(2**31), 2**31, 2), int(dice.integers(0, 1 << config.digits))
+        bound, off = coordinate_error(*ends, digits, config)
+        worst, least = max(worst, float(off)), min(least, float(off))
+    yield ["hit point above", "2^-30", count, bound, worst], worst > bound
+    yield ["hit point below", "2^-30", count, 0.0, -least], least < 0
+
+
+def text(row) -> list[str]:
+    """The cells of a row."""
+    name, unit, cases, bound, found = row
+    return [name, unit, f"{cases:,}", f"{bound:.2f}", f"{found:.2f}", f"{found / bound:.2f}" if bound else ""]
+
+
+def main() -> int:
+    """Command line; exit status 1 where a bound is refuted."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rays", type=int, default=200, help="of each category (default: 200)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--write", action="store_true", help="renew the table in docs/error-analysis.md")
+    args = parser.parse_args()
+    rows, refuted = [], []
+    for make, count in ((halving_rows, args.rays), (product_rows, 4 * args.rays), (coordinate_rows, 20 * args.rays)):
+        for row, bad in make(count, args.seed):
+            rows.append(text(row))
+            refuted += [row[0]] if bad else []
+    table = Table(title=f"bounds and worst cases, seed {args.seed}")
+    for name in HEADER:
+        table.add_column(name, justify="left" if name in HEADER[:2] else "right")
+    for row in rows:
+        table.add_row(*row)
+    Console(width=None if sys.stdout.isatty() else 140).print(table)
+    if args.write:
+        write_table(ROOT / "docs" / "error-analysis.md", "errors", HEADER, rows)
+    if refuted:
+        print(f"errors: refuted: {', '.join(refuted)}", file=sys.stderr)
+    return int(bool(refuted))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
