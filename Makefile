@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals speed synth clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -51,6 +51,15 @@ rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 
 spirals: $(READY) ## random spirals against dense sampling: missed roots, error of t, steps, bounds (ARGS=)
 	@$(BIN)/python scripts/spirals.py $(ARGS)
+
+errors: $(READY) ## rounding errors of each stage: bound and worst found (ARGS=)
+	@$(BIN)/python scripts/errors.py $(ARGS)
+
+stress: $(READY) ## 10^7 difficult rays in named categories against exact roots, both rules (JOBS=2 ARGS=)
+	@$(BIN)/python scripts/stress.py --jobs $(JOBS) $(ARGS)
+
+search: $(READY) ## evolutionary search for the largest error and the most steps (ARGS=)
+	@$(BIN)/python scripts/search.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
 	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)

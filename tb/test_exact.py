@@ -58,7 +58,7 @@ def test_changes_at_the_ends_and_at_double_roots(b, wanted):
     """Zero counts as not positive."""
     assert exact_changes(b) == wanted
     found = changes(np.array([b]))[0]
-    assert np.allclose(found[~np.isnan(found)], np.array(wanted) / ONE, rtol=0, atol=2.0**-36)
+    assert np.allclose(found[~np.isnan(found)], [low / ONE for low in wanted], rtol=0, atol=2.0**-36)
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3, 4])

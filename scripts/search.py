@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Evolutionary search for the rays of the largest error and of the most steps; the worst become directed cases."""
+
+import argparse
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from raydix import stress, stress_spirals
+from raydix.blocks import write_table
+from raydix.chords_spiral import compile_chords, trace_spiral
+from raydix.compile_spiral import needs_general
+from raydix.config import Config
+from raydix.oracle_spiral import spiral_chord_roots
+from raydix.segments import Segments, trace_segments, whole
+from raydix.stress_polynomials import fitted
+
+ROOT = Path(__file__).resolve().parents[1]
+CASES = ROOT / "tb" / "cases.toml"
+HEADER = ("search", "generations", "rays tried", "of the first", "found")
+KEPT = 8  # cases of each search that are written
+FIELDS = ("R", "r", "pitch", "turns", "R_growth", "r_growth")
+
+
+def first_items(dice, count: int, config: Config) -> np.ndarray:
+    """Control points of all categories of polynomials: (N, degree + 1) int64."""
+    named = stress.stress_polynomials.CATEGORIES.values()
+    share = -(-count // len(named))
+    return np.concatenate([fitted(make(dice, share, config.degree), config.width) for make in named])
+
+
+def children(dice, b: np.ndarray, count: int, config: Config) -> np.ndarray:
+    """Variations of items: an ulp or a bit off, another size of a coefficient, two parents' coefficients mixed."""
+    parents = b[dice.integers(0, len(b), count)]
+    other = b[dice.integers(0, len(b), count)]
+    kind, place = dice.integers(0, 5, count), dice.integers(0, b.shape[1], count)
+    row = np.arange(count)
+    step = dice.choice([-1, 1], count) * (1 << dice.integers(0, config.width - 1, count))
+    small = np.rint(dice.normal(size=count) * 4).astype(np.int64)
+    made = parents.copy()
+    old = made[row, place]
+    made[row, place] = np.choose(kind, [old + step, old + small, old ^ np.abs(step), -old, other[row, place]])
+    mixed = dice.random(count) < 0.2
+    made[mixed] = np.where(dice.random((int(mixed.sum()), b.shape[1])) < 0.5, parents[mixed], other[mixed])
+    return fitted(made, config.width)
+
+
+def error_score(b: np.ndarray, config: Config) -> np.ndarray:
+    """Error of a well-conditioned first root, ulp; of a failure outside of the band infinite; else 0."""
+    segments = Segments(b, whole(len(b)))
+    judged = stress.judge(segments, trace_segments(segments, config)[0][:, 0], config)
+    good = judged.well & ~judged.band & ~np.isnan(judged.error)
+    return np.where(judged.failed, np.inf, np.where(good, np.nan_to_num(judged.error), 0.0))
+
+
+def steps_score(b: np.ndarray, config: Config) -> np.ndarray:
+    """Steps to the first root or to none."""
+    return trace_segments(Segments(b, whole(len(b))), config)[1].astype(float)
+
+
+def evolve(
+    score, config: Config, generations: int, count: int, seed: int, tick
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """The best items, their scores, and the best score of the first generation."""
+    dice = np.random.default_rng(seed)
+    b = first_items(dice, count, config)
+    s = score(b, config)
+    begin = float(s.max())
+    for _ in range(generations):
+        # a tenth of the best, without doubles, and their children
+        _, unique = np.unique(b, axis=0, return_index=True)
+        best = unique[np.argsort(-s[unique], kind="stable")][: count // 10]
+        fresh = children(dice, b[best], count - len(best), config)
+        b, s = np.concatenate([b[best], fresh]), np.concatenate([s[best], score(fresh, config)])
+        tick()
+    _, unique = np.unique(b, axis=0, return_index=True)
+    best = unique[np.argsort(-s[unique], kind="stable")][:KEPT]
+    return b[best], s[best], begin
+
+
+def evolve_spiral(generations: int, count: int, seed: int, tick):
+    """Chords of the most steps through the spirals of all categories: [(surface, h, e, steps)], and the first most."""
+    dice, kept, begin = np.random.default_rng(seed), [], 0
+    for name in ("spiral, tip near the axis", "spiral, grazing", "spiral, along its axis"):
+        for surface, h, e in stress_spirals.CATEGORIES[name](dice, stress_spirals.SHARE):
+            config = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
+            h, e = h[:count], e[:count]
+            size = float(np.linalg.norm(e - h, axis=1).max())
+            s = trace_spiral(compile_chords(surface, h, e, config), config).steps
+            begin = max(begin, int(s.max()))
+            for _ in range(generations):
+                best = np.argsort(-s, kind="stable")[: max(1, count // 10)]
+                parents = dice.choice(best, count - len(best))
+                scale = size * 2.0 ** -dice.uniform(4, 28, (2, len(parents), 1))
+                off = dice.normal(size=(2, len(parents), 3)) * scale
+                h = np.concatenate([h[best], h[parents] + off[0]])
+                e = np.concatenate([e[best], e[parents] + off[1]])
+                s = trace_spiral(compile_chords(surface, h, e, config), config).steps
+                tick()
+            i = int(np.argmax(s))
+            kept.append((surface, h[i], e[i], int(s[i])))
+    return sorted(kept, key=lambda case: -case[3]), begin
+
+
+def toml(items: dict, spirals: list) -> str:
+    """The directed cases as a TOML document."""
+    lines = ["# SPDX-License-Identifier: Apache-2.0", "# Worst rays found by `make search`; run by tb/test_search.py."]
+    for name, (b, s) in items.items():
+        for row, value in zip(b.tolist(), s.tolist(), strict=True):
+            lines += ["", "[[item]]", f'search = "{name}"', f"b = {row}", f"found = {value!r}"]
+    for surface, h, e, steps in spirals:
+        lines += ["", "[[spiral]]", f"h = {h.tolist()}", f"e = {e.tolist()}", f"found = {steps}"]
+        lines += [f"{key} = {float(getattr(surface, key))!r}" for key in FIELDS]
+    return "\n".join(lines) + "\n"
+
+
+def load_cases() -> dict:
+    """The committed directed cases."""
+    return tomllib.loads(CASES.read_text())
+
+
+def main() -> int:
+    """Command line; exit status 1 where a failure outside of the band was found."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--generations", type=int, default=150)
+    parser.add_argument("--rays", type=int, default=20_000, help="in a generation (default: 20000)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--write", action="store_true", help="renew tb/cases.toml and the table in docs/stress.md")
+    args = parser.parse_args()
+    config, rows, items = Config(units=1), [], {}
+    with Progress(console=Console(stderr=True)) as progress:
+        for name, score in (("error", error_score), ("steps", steps_score)):
+            bar = progress.add_task(name, total=args.generations)
+            b, s, begin = evolve(
+                score, config, args.generations, args.rays, args.seed, lambda bar=bar: progress.advance(bar)
+            )
+            items[name] = b, s
+            tried = args.generations * (args.rays - args.rays // 10) + args.rays
+            rows.append([f"algebraic: most {name}", str(args.generations), f"{tried:,}", f"{begin:.3f}", f"{s[0]:.3f}"])
+        bar = progress.add_task("spirals", total=None)
+        few = max(1, args.generations // 5)
+        spirals, begin = evolve_spiral(few, args.rays // 100, args.seed, lambda: progress.advance(bar))
+    rows.append(
+        ["spirals: most steps", str(few), f"{few * args.rays // 100 * len(spirals):,}", f"{begin}", f"{spirals[0][3]}"]
+    )
+    spirals = spirals[:KEPT]
+    failed = not np.isfinite(items["error"][1]).all()
+    for surface, h, e, _ in spirals:
+        compiled = compile_chords(surface, h[None], e[None], config)
+        c = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
+        exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
+        judged = stress.judge_spiral(surface, compiled, trace_spiral(compiled, c), exact, clearance, c)
+        failed |= bool(judged.failed.any())
+    table = Table(title=f"search, seed {args.seed}")
+    for name in HEADER:
+        table.add_column(name, justify="left" if name == "search" else "right")
+    for row in rows:
+        table.add_row(*row)
+    Console(width=None if sys.stdout.isatty() else 120).print(table)
+    if args.write:
+        CASES.write_text(toml(items, spirals))
+        write_table(ROOT / "docs" / "stress.md", "search", HEADER, rows)
+    if failed:
+        print("search: a ray was found on which the certified rule fails outside of the band", file=sys.stderr)
+    return int(failed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

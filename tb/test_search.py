@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Directed cases: the worst rays that the search has found stay right, and cost no more than they did."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from raydix import stress
+from raydix.chords_spiral import compile_chords, trace_spiral
+from raydix.compile_spiral import needs_general
+from raydix.config import Config
+from raydix.oracle_spiral import spiral_chord_roots
+from raydix.scene import Spiral
+from raydix.segments import Segments, trace_segments, whole
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+import search  # noqa: E402  (a script, found by the path above)
+
+CONFIG = Config(units=1)
+CASES = search.load_cases()
+
+
+def test_items():
+    """The same error, at most 2 ulp, and the same steps as when they were found."""
+    b = np.array([case["b"] for case in CASES["item"]], np.int64)
+    assert len(b) >= 8
+    error, steps = search.error_score(b, CONFIG), search.steps_score(b, CONFIG)
+    for case, e, s in zip(CASES["item"], error, steps, strict=True):
+        assert e <= 2
+        assert (e if case["search"] == "error" else s) == pytest.approx(case["found"], rel=1e-6)
+    segments = Segments(b, whole(len(b)))
+    assert not stress.judge(segments, trace_segments(segments, CONFIG)[0][:, 0], CONFIG).failed.any()
+
+
+@pytest.mark.parametrize("case", CASES["spiral"], ids=lambda c: str(c["found"]))
+def test_spirals(case):
+    """No failure, not given up, no more steps than when it was found."""
+    surface = Spiral(type="spiral", **{key: case[key] for key in search.FIELDS})
+    config = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
+    compiled = compile_chords(surface, np.array([case["h"]]), np.array([case["e"]]), config)
+    found = trace_spiral(compiled, config)
+    exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
+    judged = stress.judge_spiral(surface, compiled, found, exact, clearance, config)
+    assert not judged.failed.any()
+    assert not judged.given_up.any()
+    assert found.steps[0] <= case["found"]
+
+
+def test_search_climbs():
+    """A few generations find a larger error than the first, and the children are words that fit."""
+    b, s, begin = search.evolve(search.error_score, CONFIG, 4, 400, 3, lambda: None)
+    assert s[0] >= begin
+    assert np.isfinite(s).all()
+    assert np.abs(b).max() <= 1 << 35
