@@ -20,9 +20,16 @@ ZERO, ONE, HALF = arb(0), arb(1), arb(0.5)
 CUTS = (0.0, 0.1317432, 0.2561391, 0.3792163, 0.5031127, 0.6278153, 0.7519329, 0.8766131, 1.0)
 
 
-def squared(x: arb) -> arb:
-    """x^2, of which nothing is negative."""
-    return (x * x).nonnegative_part()
+def root(square: arb) -> arb:
+    """Square root of the part of a ball that is not negative."""
+    if square > ZERO:
+        return square.sqrt()
+    return ZERO.union(max(square.upper(), ZERO).sqrt())
+
+
+def length(*legs: arb) -> arb:
+    """Square root of the sum of squares."""
+    return root(sum((leg * leg for leg in legs), ZERO))
 
 
 def full_turn() -> arb:
@@ -45,6 +52,8 @@ def turns_of(x: arb, y: arb) -> arb:
 def nearest(found) -> arb:
     """The least of enclosures, each with a flag: whether it counts for certain (the first one does)."""
     low, high = found[0][0].lower(), found[0][0].upper()
+    if not all(value.is_finite() for value, _ in found):
+        raise ArithmeticError("an enclosure is not finite")  # no comparison with it would tell
     for value, certain in found[1:]:
         low = min(low, value.lower())
         if certain:
@@ -89,7 +98,7 @@ class Solid:
             s, certain = self.within(theta + m)
             if s is not None:
                 across, along = rho - self.R - self.R_growth * s, z - self.pitch * s
-                yield (squared(across) + squared(along)).sqrt() - self.r - self.r_growth * s, certain
+                yield length(across, along) - self.r - self.r_growth * s, certain
 
 
 def turns_below(turns: arb) -> range:
@@ -204,7 +213,7 @@ class Line:
     def place(self, t: arb) -> Place:
         """The point at an exact t."""
         u = self.start + self.speed * t
-        rho = (squared(u) + squared(self.aside)).sqrt()
+        rho = length(u, self.aside)
         if self.left:
             theta = self.theta + self.left * arb.atan2(self.aside, u) / full_turn()
         else:  # through the axis, or along it; at the axis itself it does not matter
@@ -224,7 +233,7 @@ class Line:
     def rates(self, at: Place) -> tuple[arb, arb]:
         """Change of rho and of s with t."""
         if at.rates is None:
-            at.rates = at.u * self.speed / at.rho, self.swirl / (at.rho * at.rho)
+            at.rates = at.u * self.speed / at.rho, self.swirl / at.rho / at.rho
         return at.rates
 
     def sign(self, at: Place, parts) -> int:
@@ -354,8 +363,7 @@ def value_over(line: Line, low: Place, high: Place) -> arb:
         if counts >= 0:
             value = part.value(middle) + part.slope(span) * (span.t - middle.t)
             size = part.size(span)
-            distance = (value + size * size).nonnegative_part().sqrt()
-            found.append((value / (distance + size), counts > 0))
+            found.append((value / (root(value + size * size) + size), counts > 0))
     if not with_tubes:
         found += line.solid.disks(span.rho, HALF.union(ZERO).union(ONE), span.z)
     return nearest(found)

@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 from mpmath import mpf
 
-from .exact_chord import Line, Solid, nearest, pieces, refine, sampled, squared, turns_of, value_over
+from .exact_chord import Line, Solid, length, nearest, pieces, refine, sampled, turns_of, value_over
 
 PRECISION = 160  # bits of the balls' midpoints wherever signs on a chord are decided
 CERTIFIED, MISSED, FALSE, WRONG, UNDECIDED = "certified", "missed", "false", "wrong", "undecided"
@@ -139,9 +139,8 @@ def indicator(surface, point: Sequence) -> arb:
     x, y, z = (v if isinstance(v, arb) else arb(v) for v in point)
     found = []  # (enclosure, whether it counts for certain)
     for centre, radius in solid.balls:
-        offset = squared(x - centre[0]) + squared(y - centre[1]) + squared(z - centre[2])
-        found.append((offset.sqrt() - radius, True))
-    rho = (squared(x) + squared(y)).sqrt()
+        found.append((length(x - centre[0], y - centre[1], z - centre[2]) - radius, True))
+    rho = length(x, y)
     theta = turns_of(x, y) if rho > 0 else arb(0.5, 0.5)
     found += solid.disks(rho, theta, z)
     return nearest(found)
