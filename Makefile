@@ -10,10 +10,10 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals speed synth clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals exact-spirals speed synth clean distclean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 	@echo "  variables: PYTHON JOBS; for each target those named in its line"
 
 setup: $(READY) ## build .venv from requirements.lock (PYTHON=python3)
@@ -51,6 +51,9 @@ rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 
 spirals: $(READY) ## random spirals against dense sampling: missed roots, error of t, steps, bounds (ARGS=)
 	@$(BIN)/python scripts/spirals.py $(ARGS)
+
+exact-spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
+	@$(BIN)/python scripts/exact_spirals.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
 	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)

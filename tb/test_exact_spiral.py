@@ -13,6 +13,7 @@ from flint import arb, ctx, fmpq, fmpq_poly
 from raydix.chords_spiral import chords_through, compile_chords, random_spiral, trace_spiral
 from raydix.compile_spiral import needs_general
 from raydix.config import Config
+from raydix.exact_chord import Line, Solid, value_over
 from raydix.exact_spiral import certify, ends_of_words, indicator, judge, rational, roots
 from raydix.formats import FORM_INDEX, ZONES
 from raydix.oracle_spiral import spiral_chord_roots, spiral_value
@@ -109,6 +110,22 @@ def test_indicator_on_the_axis():
         near = [(1e-9 * np.cos(a), 1e-9 * np.sin(a), z) for a in np.linspace(0, 2 * np.pi, 100)]
         values = spiral_value(spiral(**HELIX), near)
         assert box.lower() < values.min() + 1e-8 and values.max() - 1e-8 < box.upper()
+
+
+@pytest.mark.parametrize("name", GROWN)
+def test_value_over_a_part_of_a_chord(name):
+    """No value is outside of the ball, on intervals of all lengths; on short ones it is not much too large."""
+    shape = spiral(**GROWN[name])
+    dice, narrow = np.random.default_rng(5), 0
+    with ctx.workprec(160):
+        for h, e in zip(*chords(shape, 80, 6), strict=True):
+            line = Line(Solid(shape), [rational(v) for v in h], [rational(v) for v in e])
+            low, width = dice.uniform(0, 0.9), 10 ** dice.uniform(-5, -1)
+            box = value_over(line, line.place(arb(low)), line.place(arb(low + width)))
+            values = spiral_value(shape, h + np.linspace(low, low + width, 40)[:, None] * (e - h))
+            assert box.lower() < values.min() + 1e-12 and values.max() - 1e-12 < box.upper()
+            narrow += width < 1e-3 and 2 * float(box.rad()) < 3 * np.ptp(values) + 1e-6
+    assert narrow > 20
 
 
 # ---------------------------------------------------------------- exact roots

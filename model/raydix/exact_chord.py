@@ -354,7 +354,10 @@ def sampled(line: Line, t: arb) -> arb:
 
 
 def value_over(line: Line, low: Place, high: Place) -> arb:
-    """Enclosure of the indicator between two points; off the axis its excess is of second order in their distance."""
+    """Enclosure of the indicator between two points.
+
+    Off the axis its excess is their distance times what is small near the surface: the indicator, or that distance.
+    """
     span, middle = line.between(low, high), line.place(((low.t + high.t) / 2).mid())
     with_tubes = span.rho > ZERO
     found = []
