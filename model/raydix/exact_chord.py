@@ -221,9 +221,10 @@ class Line:
         return Place(t, u, rho, theta, self.z + self.dz * t)
 
     def between(self, low: Place, high: Place) -> Place:
-        """All points between two. Its azimuth is of use where rho is positive.
+        """All points between two.
 
-        Height and azimuth change in one direction only, and the distance from the axis has one minimum.
+        Height and azimuth change in one direction only (where a chord meets the axis the azimuth changes by half a turn
+        at once, and both are among the points), and the distance from the axis has one minimum.
         """
         u, rho = low.u.union(high.u), low.rho.union(high.rho)
         if u.contains(ZERO):
@@ -231,7 +232,7 @@ class Line:
         return Place(low.t.union(high.t), u, rho, low.theta.union(high.theta), low.z.union(high.z))
 
     def rates(self, at: Place) -> tuple[arb, arb]:
-        """Change of rho and of s with t."""
+        """Change of rho and of s with t; not finite, and so without a sign, where the axis may be among the points."""
         if at.rates is None:
             at.rates = at.u * self.speed / at.rho, self.swirl / at.rho / at.rho
         return at.rates
@@ -292,15 +293,9 @@ def _settled(line: Line, low: Place, middle: Place, high: Place, parts):
     """The signs at both ends of a cell, None where they are not known, and the parts that may be zero or less."""
     span = line.between(low, high)
     if span.rho < line.solid.clear:
-        parts, wide = [part for part in parts if isinstance(part, Ball)], False
-    else:
-        wide = not span.rho > line.solid.clear / 4  # so near to the axis, and so far, that a tube may be anywhere
+        parts = [part for part in parts if isinstance(part, Ball)]
     left, slopes = [], []
     for part in parts:
-        if wide and isinstance(part, Tube):
-            left.append(part)
-            slopes.append(0)
-            continue
         counts = part.counts(span)
         if counts < 0:
             continue
