@@ -182,6 +182,29 @@ def test_through_the_axis():
     assert len(found) == 4 and all(root.t.overlaps(t) for root, t in zip(found, exact, strict=True))
 
 
+def test_through_the_axis_of_a_growing_screw():
+    """As the float64 oracle has it, though radii and height jump at the axis as far as half a turn takes them."""
+    screw = spiral(R=0.2, r=0.19, pitch=1.0, turns=2.3, R_growth=1.0, r_growth=0.6)
+    dice, counted = np.random.default_rng(8), 0
+    for _ in range(40):
+        ahead, low, high = dice.normal(size=2).astype(np.float32), *dice.uniform(-0.5, 3, 2)
+        h, e = (*-3 * ahead, low), (*2 * ahead, high)  # on a line through the axis, exactly
+        exact, clearance = spiral_chord_roots(screw, np.array([h], float), np.array([e], float))
+        found = places(only_roots(screw, h, e))
+        assert clearance[0] < 1e-9 or np.allclose(found, exact[0][~np.isnan(exact[0])], rtol=0, atol=1e-12)
+        counted += len(found)
+    assert counted > 60
+
+
+def test_touching_one_turn_where_another_is_entered():
+    """Two parts are zero there, one of them without a slope: the sign changes all the same, and nowhere else."""
+    coil = spiral(R=1.0, r=5 / 16, pitch=6 / 16, turns=3.5)
+    point, ahead = np.array([1.25, 0, 9 / 16]), np.array([-3, 0, 4]) / 16
+    (found,) = only_roots(coil, point - ahead, point + ahead / 2)
+    with ctx.workprec(100):
+        assert found.t.overlaps(arb(fmpq(2, 3))) and found.enters
+
+
 def test_through_the_centre_of_an_end():
     """From outside along the tangent of the curve: the pole of the ball at the start, and of that at the end."""
     arc = spiral(R=1.0, r=0.25, pitch=0.0, turns=0.25, R_growth=-0.5, r_growth=0.25)
@@ -192,14 +215,14 @@ def test_through_the_centre_of_an_end():
 
 
 def test_from_inside():
-    """Zero roots within the solid, and one on the way out; a chord that begins on the surface is not decided there."""
+    """No root within the solid, one on the way out; a chord that begins on the surface is not decided there."""
     ring = spiral(**RING)
     assert roots(ring, (0.7, 0, 0), (0.75, 0.01, 0)) == ([], [])
     found = only_roots(ring, (0.7, 0, 0), (0.2, 0, 0))
     assert len(found) == 1 and found[0].t.contains(fmpq(1, 2)) is False and not found[0].enters
     assert abs(float(found[0].t) - 0.5) < 1e-15  # 0.7 - 0.25 is not 0.45 in binary
-    found, gaps = roots(ring, (0.75, 0, 0.25), (0.75, 0, -1))
-    assert len(found) + len(gaps) >= 1
+    found, gaps = roots(spiral(R=0.75, r=0.25), (0.75, 0, 0.25), (0.75, 0, -0.75))
+    assert len(found) == len(gaps) == 1 and found[0].t.contains(fmpq(1, 2)) and gaps[0].t.contains(0)
 
 
 def test_a_hundred_turns():
@@ -269,6 +292,14 @@ def test_verdicts():
     assert right.kind == "certified" and right.clearance is None and right.root.t.overlaps(first.t)
     for steps, margin, kind in ((3, 3, "certified"), (3, 2, "wrong"), (-3, 3, "certified"), (-3, 2, "wrong")):
         assert certify(ring, *LID, cell + steps * width, width, margin * width).kind == kind
+    early = certify(ring, *LID, cell - 5 * width, width)
+    ends = [abs(at(ring, *LID, rational(cell + k * width))) for k in (-5, -4)]
+    assert early.kind == "wrong" and float(early.clearance) == pytest.approx(float(min(ends, key=float)), rel=1e-9)
+    late = certify(ring, *LID, cell + 1000 * width, width)  # no value before that place is larger than the one there
+    assert late.kind == "wrong"
+    assert float(late.clearance) == pytest.approx(-float(at(ring, *LID, rational(cell + 1000 * width))), rel=0.05)
+    inside = certify(ring, (0.75, 0, 0.25 - 2.0**-20), (0.75, 0, 1), None)  # what was not seen is that it begins inside
+    assert inside.kind == "missed" and float(inside.clearance) == pytest.approx(2.0**-20, rel=0.05)
     for t in (float(second.t), float(third.t), None):
         verdict = certify(ring, *LID, t, width)
         assert verdict.kind == ("missed" if t is None else "wrong")
@@ -300,7 +331,8 @@ def test_clearance_of_what_was_missed():
 def test_judge_counts():
     """Each kind of verdict is counted once; epsilon takes out what has less clearance, but nothing undecided."""
     ring = spiral(R=0.75, r=0.25)
-    first, _, third, _ = (int(t * 2**24) for t in places(only_roots(ring, *LID)))
+    first, _, third, _ = [int(t * 2**24) for t in places(only_roots(ring, *LID))]
+    error = first + 0.5 - places(only_roots(ring, *LID))[0] * 2**24
     beside, touching = ((-2, 0.25, 0.5), (2, 0.25, 0.5)), ((-2, 0.25, 0.25), (2, 0.25, 0.25))
     cases = [(LID, first), (LID, first + 5), (LID, -1), (LID, third), (beside, 1 << 23), (beside, -1), (touching, -1)]
     h, e, found = [c[0][0] for c in cases], [c[0][1] for c in cases], [c[1] for c in cases]
@@ -308,7 +340,8 @@ def test_judge_counts():
         result = judge(ring, h, e, found, 24, 4, epsilon)
         assert result[:7] == counts
         assert [i for i, _ in result.uncertified] == [1, 2, 3, 4, 6]
-        assert np.flatnonzero(~np.isnan(result.error)).tolist() == [0] and abs(result.error[0]) <= 0.5
+        assert np.flatnonzero(~np.isnan(result.error)).tolist() == [0]
+        assert result.error[0] == pytest.approx(error, abs=1e-7)
     assert judge(ring, h, e, found, 24, 5).error[1] == pytest.approx(result.error[0] + 5)
 
 
@@ -354,7 +387,7 @@ def test_golden_model():
         assert not result.uncertified, (surface, result.uncertified)
         errors.append(result.error[~np.isnan(result.error)])
     errors = np.concatenate(errors)
-    assert len(errors) > 40 and np.abs(errors).max() < 8 and np.sqrt(np.mean(errors**2)) < 0.6
+    assert len(errors) > 40 and np.abs(errors).max() < 8 and np.sqrt(np.mean(errors**2)) < 0.5
 
 
 def test_what_is_wrong_is_seen():
