@@ -10,10 +10,10 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals clean distclean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 	@echo "  variables: PYTHON JOBS; for each target those named in its line"
 
 setup: $(READY) ## build .venv from requirements.lock (PYTHON=python3)
@@ -60,6 +60,9 @@ stress: $(READY) ## 10^7 difficult rays in named categories against exact roots,
 
 search: $(READY) ## evolutionary search for the largest error and the most steps (ARGS=)
 	@$(BIN)/python scripts/search.py $(ARGS)
+
+exact-spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
+	@$(BIN)/python scripts/exact_spirals.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
 	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)

@@ -78,6 +78,8 @@ class Compiled(NamedTuple):
     coordinates  (N, 6) int64, x, y, z at h, then at e
     h, e         (N, 3) float64, the ends as the words have them
     epsilon      bound of the evaluator's error in local units
+    factors      of the axes, mpmath numbers: word = 2^30 * factor * (local - origin)
+    middle       z of that origin, whose x and y are 0
     """
 
     form: np.ndarray
@@ -85,6 +87,8 @@ class Compiled(NamedTuple):
     h: np.ndarray
     e: np.ndarray
     epsilon: float
+    factors: tuple[mp.mpf, ...]
+    middle: mp.mpf
 
 
 def compile_chords(surface, h: np.ndarray, e: np.ndarray, config: Config) -> Compiled:
@@ -101,7 +105,7 @@ def compile_chords(surface, h: np.ndarray, e: np.ndarray, config: Config) -> Com
     scale = factor * 2.0**COORD_FRAC
     integers = [np.rint((v - origin) * scale).astype(np.int64) for v in (h, e)]
     exact = [v / scale + origin for v in integers]
-    return Compiled(words(form), np.concatenate(integers, axis=1), *exact, error)
+    return Compiled(words(form), np.concatenate(integers, axis=1), *exact, error, factors, middle)
 
 
 def trace_spiral(compiled: Compiled, config: Config, roots: int = 1) -> Chords:
