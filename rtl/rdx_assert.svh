@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assertions; nothing is left of them where SYNTHESIS is defined.
+// Assertions; nothing is left of them where SYNTHESIS is defined. With RDX_FORMAL those of streams are written for a prover
+// that knows no sequences.
 `ifndef RDX_ASSERT_SVH
 `define RDX_ASSERT_SVH
 
-`ifdef SYNTHESIS
+`ifdef RDX_FORMAL
+`define RDX_ASSERT(name, condition)
+`ifdef RDX_REACH
+`define RDX_STREAM(name, valid, ready, data) \
+  logic name``_reset_q = 1'b0; \
+  always_ff @(posedge clk_i) if (!rst_ni) name``_reset_q <= 1'b1; \
+  always_comb name``_offer : assert (!(name``_reset_q && rst_ni && (valid) && !(ready)));
+`else
+`define RDX_STREAM(name, valid, ready, data) \
+  logic name``_reset_q = 1'b0; \
+  logic name``_waits_q = 1'b0; \
+  logic [$bits(data)-1:0] name``_data_q; \
+  always_ff @(posedge clk_i) begin \
+    if (!rst_ni) name``_reset_q <= 1'b1; \
+    name``_waits_q <= name``_reset_q && rst_ni && (valid) && !(ready); \
+    name``_data_q <= data; \
+  end \
+  always_comb name``_valid : assert (!name``_waits_q || !rst_ni || (valid)); \
+  always_comb name``_data : assert (!name``_waits_q || !rst_ni || name``_data_q == (data));
+`endif
+`elsif SYNTHESIS
 `define RDX_ASSERT(name, condition)
 `define RDX_STREAM(name, valid, ready, data)
 `else

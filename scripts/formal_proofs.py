@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of proofs that scripts/formal.py makes."""
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Proof:
+    """One proof. A change is (file without ending, text that is there exactly once, text in its place)."""
+
+    top: str  # harness of tb/formal, or a module of rtl whose stream rules are proved
+    of: str  # what is proved, in the table
+    says: str  # what holds, in the table
+    parameters: dict[str, int] = field(default_factory=dict)
+    method: str = "pdr"  # pdr; induction <k>; bmc <clocks>; paths
+    broken: tuple[tuple[str, str, str], ...] = ()  # changes, each of which has to be refuted
+    stand_ins: tuple[str, ...] = ()  # modules of rtl that are replaced by those of tb/formal of the same name
+    replace: tuple[tuple[str, str, str], ...] = ()  # changes that make the design smaller
+    stages: int = 1  # of lemmas: the parameter Stage of the harness counts them
+    depth: int = 20  # clocks in which covers are reached
+    limit: int = 120  # seconds that one run of ABC may take
+
+
+def halve(w, d):
+    """rdx_halve of some width and degree."""
+    broken = (
+        ("rdx_halve", "+ (W + 1)'(1)) >>> 1", "+ (W + 1)'(2)) >>> 1"),
+        ("rdx_halve", "right_o = gen_row[D].work_q", "right_o = gen_row[D].left_q"),
+    )
+    says = "rounding half up, outer ends exact, inner end shared, all within the hull of the inputs"
+    return Proof("formal_halve", "rdx_halve", says, {"W": w, "D": d}, broken=broken, stages=d)
+
+
+def select(w, d, n1, rules):
+    """rdx_select against its specification."""
+    clocks = 1 if rules == 1 else 2 + (n1 + 2) // 2
+    broken = [("rdx_select", "& ~(&positive[j*D+:D+1])", "& ~(&positive[j*D+:D])")] if rules != 2 and d > 1 else []
+    if rules != 1:
+        broken += [("rdx_guess", ".size[2*i+1] < gen_level", ".size[2*i+1] <= gen_level")]
+        broken += [("rdx_guess", "right_second <= left_second", "right_second < left_second")]
+    else:
+        broken += [("rdx_select", "(last_i ? changes", "(!last_i ? changes")]
+    says = "first and second candidate are those of the rule in force, for all inputs"
+    values = {"W": w, "D": d, "N1": n1, "Rules": rules}
+    return Proof("formal_select", "rdx_select", says, values, f"induction {clocks + 2}", tuple(broken))
+
+
+def normalize(w_in, w_out, count, limit):
+    """rdx_normalize of some widths."""
+    broken = (
+        ("rdx_normalize", "shift_d = Bits'(Limit - 1 - s);", "shift_d = Bits'(Limit - s);"),
+        ("rdx_normalize", "shift_d = Bits'(Limit);", "shift_d = Bits'(Limit - 1);"),
+    )
+    says = "one shift for all, the largest that fits; signs stay; floor to the output"
+    values = {"WIn": w_in, "WOut": w_out, "Count": count, "Limit": limit}
+    return Proof("formal_normalize", "rdx_normalize", says, values, "induction 4", broken)
+
+
+def outside(faces, change):
+    """rdx_outside with exponents or with faces."""
+    says = "outside where both ends are beyond one face, the faces as numbers"
+    also = ("rdx_outside", "&& sign[axis][j] == sign[axis][j+1]", "")
+    broken = (("rdx_outside", *change), also)
+    return Proof("formal_outside", "rdx_outside", says, {"J": 8, "Faces": faces}, broken=broken)
+
+
+def fdiff(w, quadratic, places):
+    """rdx_fdiff of some width over 2^places columns and rows."""
+    broken = (
+        ("rdx_fdiff", "row_rise_q + dyy", "row_rise_q - dyy" if quadratic else "row_rise_q + 1"),
+        ("rdx_fdiff", "{slope_q, row_slope_q} <= {next_row_slope, next_row_slope};", "slope_q <= next_row_slope + 1;"),
+    )
+    says = "the value is the polynomial of column and row"
+    values = {"W": w, "Quadratic": quadratic, "Places": places}
+    return Proof("formal_fdiff", "rdx_fdiff", says, values, "induction 2", broken)
+
+
+def slots(slots, phases):
+    """rdx_slots of some number of slots."""
+    broken = (
+        ("rdx_slots", "memory[enter_q] <= first_i", "memory[leave_q] <= first_i"),
+        ("rdx_slots", "leave_q == slot_t'(Slots - 1)", "leave_q == slot_t'(Slots - 2)"),
+    )
+    says = "what an item began with comes back each turn, until its slot is given anew"
+    return Proof("formal_slots", "rdx_slots", says, {"Slots": slots, "Phases": phases, "W": 1}, "pdr", broken, depth=40)
+
+
+def ring(parameters, always, **rest):
+    """rdx_ring with units that do what they like within their contract."""
+    says = "one last record for each ray taken, none without a ray; first segments and places are the ray's own"
+    broken = (
+        ("rdx_slots", "memory[enter_q] <= first_i", "memory[leave_q] <= first_i"),
+        ("rdx_ring", "record.last ? Idle : Again", "record.last ? Idle : back.status"),
+        (
+            "rdx_ring",
+            "leave_q.status == Idle && enter;",
+            "(leave_q.status == Idle || leave_q.status == Again) && enter;",
+        ),
+        ("rdx_ring", "back.pending && !(&back.steps)", "back.pending"),
+    )
+    if always:
+        says = "the last record of a ray comes in time where every record is taken at once"
+        broken = (
+            ("rdx_ring", "else if (leave_q.status == Again) begin", "else if (leave_q.status == Again && take) begin"),
+        )
+    values = parameters | {"Always": always}
+    return Proof("formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), depth=60, **rest)
+
+
+def stream(top, parameters, *broken, method="induction 2", **rest):
+    """The rules of streams, which a module states itself."""
+    says = "at each stream port valid stays until ready, and so does the data"
+    return Proof(top, top, says, parameters, method, broken, **rest)
+
+
+SMALL = {"N1": 1, "K": 2, "W": 16, "D": 2, "U": 1, "Rules": 1, "HalveStages": 0}
+OUTPUT = ("rdx_register", "else if (ready_o) valid_o <= valid_i;", "else valid_o <= valid_i;")
+HELD = ("rdx_product", "wire en = !valid_q[Latency-1] || ray_ready_i;", "wire en = 1'b1;")
+WALK = ("rdx_raster", "wire step = ray_valid_o && ray_ready_i;", "wire step = ray_valid_o;")
+
+PROOFS = {
+    "halve-d4": halve(48, 4),
+    "halve-d2": halve(48, 2),
+    "select-n1": select(4, 4, 1, 3),
+    "select-n2": select(4, 4, 2, 3),
+    "select-n3": select(4, 4, 3, 3),
+    "select-n4": select(4, 4, 4, 3),
+    "select-d2": select(4, 2, 3, 3),
+    "select-d1": select(4, 1, 3, 3),
+    "select-certified": select(4, 4, 3, 1),
+    "select-paper": select(4, 4, 3, 2),
+    "normalize": normalize(36, 36, 5, 7),
+    "normalize-first": normalize(64, 36, 5, 63),
+    "normalize-d2": normalize(48, 48, 3, 7),
+    "pick": Proof(
+        "formal_pick",
+        "rdx_pick",
+        "the digits of the level are those chosen, the rest stays; t_next likewise; others than Run pass",
+        {"N1": 3, "K": 8},
+        broken=(
+            ("rdx_pick", "control_i.follow && pick_i == first_i", "control_i.follow"),
+            ("rdx_pick", "control_o.t_next  = control_i.t;", "control_o.t_next  = control_i.t_next;"),
+        ),
+    ),
+    "outside": outside(0, ("& face_bits);", "& (face_bits >> 1));")),
+    "outside-faces": outside(1, ("boundaries_i[axis][j] > high_i[axis]", "boundaries_i[axis][j] >= high_i[axis]")),
+    "fdiff": fdiff(64, 1, 2),
+    "fdiff-linear": fdiff(48, 0, 2),
+    "bound": Proof(
+        "formal_bound",
+        "rdx_bound",
+        "a cell of one sign is excluded exactly where a bound excludes it",
+        {"N1": 3},
+        "induction 6",
+        (
+            ("rdx_bound", "up = bound + 1'b1;", "up = bound;"),
+            ("rdx_bound", "(7'(level) + 7'd1) * digits", "7'(level) * digits"),
+            ("rdx_bound", "(bend_q >> 2)", "(bend_q >> 3)"),
+        ),
+    ),
+    "slots": slots(6, 1),
+    "slots-phases": slots(5, 3),
+    "stream-register": stream(
+        "rdx_register", {"W": 32}, ("if (ready_o && valid_i) data_o", "if (valid_i) data_o"), method="pdr"
+    ),
+    "stream-product": stream("rdx_product", {"D": 2}, HELD),
+    "stream-product-d4": stream("rdx_product", {"D": 4}, HELD, stand_ins=("rdx_quartic",)),
+    "stream-raster": stream("rdx_raster", {"D": 0, "Vector": 1}, WALK, depth=90),
+    "stream-raster-d4": stream("rdx_raster", {"D": 4, "Vector": 1}, depth=90),
+    "stream-ends": stream("rdx_ends", {"Lanes": 1}, stand_ins=("rdx_vecsum",), depth=100),
+    "stream-ring": stream("rdx_ring", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
+    "stream-algebraic": stream("rdx_algebraic", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
+    "stream-vector": stream("rdx_vector", {"N1": 1, "K": 2, "Lanes": 1}, stand_ins=("rdx_step", "rdx_vecsum")),
+    "stream-core": stream(
+        "rdx_core", SMALL | {"Vecsum": 2, "Lanes": 1}, stand_ins=("rdx_step", "rdx_vecsum", "rdx_quartic")
+    ),
+    "ring": ring({"U": 1}, 0),
+    "ring-time": ring({"U": 1}, 1),
+    "merge": Proof(
+        "formal_merge",
+        "rdx_merge",
+        "nothing lost, doubled or changed; nobody passed by twice; stream rules, if both inputs keep them",
+        {"W": 8},
+        broken=(
+            ("rdx_merge", "turn_q <= ready_i ? !chosen : chosen", "turn_q <= chosen"),
+            ("rdx_merge", "held_q || valid_i[turn_q] ? turn_q", "valid_i[1] ? 1'b1"),
+            ("rdx_merge", "ready_o[chosen] = ready_i;", "ready_o = {2{ready_i}};"),
+        ),
+    ),
+}
