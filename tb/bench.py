@@ -22,9 +22,11 @@ from unittest.mock import patch
 from xml.etree import ElementTree
 
 import cocotb
+import pytest
 from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
+import second
 from raydix import formats
 from raydix.rtl import ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources
 
@@ -101,6 +103,9 @@ def run(module, toplevel, parameters=None, checks=None):
     """
     from cocotb_tools.runner import get_results, get_runner
 
+    icarus = os.environ.get("SIMULATOR") == "icarus"
+    if icarus and not second.found():
+        pytest.skip(second.MISSING)
     parameters = parameters or {}
     seed = int(os.environ.get("SEED") or secrets.randbelow(1 << 31))
     name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{'-'.join(checks)}" if checks else "")
@@ -117,12 +122,12 @@ def run(module, toplevel, parameters=None, checks=None):
     settings = {**environment(), "MAKEFLAGS": MAKE_VARIABLES, "WAVES": ""}
     with patch.dict(os.environ, settings):
         os.environ.pop("PYTEST_CURRENT_TEST", None)  # else the runner ends the process where a test fails
-        target = build(toplevel, parameters, waves)
-        with tempfile.TemporaryDirectory(prefix="run-", dir=BUILD) as folder:
+        target = second.build(toplevel, parameters) if icarus else build(toplevel, parameters, waves)
+        with tempfile.TemporaryDirectory(prefix="run-", dir=target.parent) as folder:
             results = Path(folder, "results.xml")
             ended = ""
             try:
-                get_runner("verilator").test(
+                get_runner("icarus" if icarus else "verilator").test(
                     test_module=module, hdl_toplevel=toplevel, hdl_toplevel_lang="verilog", build_dir=target,
                     test_dir=folder, results_xml=str(results), seed=seed, test_args=arguments, testcase=checks,
                     extra_env={"RAYDIX_INTERPRET": "1", "RAYDIX_REPLAY": replay, "COCOTB_REWRITE_ASSERTION_FILES": ""},
@@ -265,8 +270,10 @@ def parameter(dut, name):
 
 
 async def start(dut):
-    """Start the clock; where there is a reset, hold it for four clocks. Ends at a falling edge."""
+    """Start the clock, with en_i = 1; where there is a reset, hold it for four clocks. Ends at a falling edge."""
     Clock(dut.clk_i, 10, unit="ns").start(start_high=False)
+    if hasattr(dut, "en_i"):
+        dut.en_i.value = 1
     if hasattr(dut, "rst_ni"):
         dut.rst_ni.value = 0
         for _ in range(4):
@@ -305,8 +312,8 @@ class Port:
             handle.value = word
 
     def read(self):
-        """The port's elements as unsigned integers."""
-        return [int(handle.value) for handle in self.handles]
+        """The port's elements as unsigned integers; None for one with an X or Z."""
+        return [_integer(handle.value) for handle in self.handles]
 
     def differences(self, expected, got):
         """Lines that tell where two results of :meth:`words` differ; empty if they agree."""
@@ -314,7 +321,9 @@ class Port:
         for i, (e, g) in enumerate(zip(expected, got, strict=True)):
             if e is None or e == g:
                 continue
-            if self.struct:
+            if g is None:
+                lines.append(f"{self.name}[{i}]: expected {_hex(e, None)}, got {self.handles[i].value}")
+            elif self.struct:
                 e_fields, g_fields = self.struct.unpack(e), self.struct.unpack(g)
                 lines += [f"{self.name}.{f}: {_both(e_fields[f], g_fields[f])}" for f in e_fields
                           if e_fields[f] != g_fields[f]]  # fmt: skip
@@ -330,6 +339,13 @@ def _flat_list(value):
             yield from _flat_list(v)
         else:
             yield v
+
+
+def _integer(value):
+    try:
+        return int(value)
+    except ValueError:
+        return None
 
 
 def _hex(value, width):
