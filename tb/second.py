@@ -24,7 +24,7 @@ BUILD = ROOT / "build" / "second"
 MISSING = "iverilog is missing (Debian: apt-get install iverilog)"
 
 # -noopt and pmuxtree: what an X does is for the simulator to find out; a casez would take X for no match
-PASSES = ("proc -noopt", "pmuxtree", "rename {top} {top}_netlist", "write_verilog -noattr {out}")
+PASSES = ("proc -noopt", "pmuxtree", "opt_clean", "rename {top} {top}_netlist", "write_verilog -noattr {out}")
 YOSYS = """
 import json, sys
 from pyosys import libyosys
@@ -33,11 +33,21 @@ for command in json.loads(sys.argv[1]):
     libyosys.run_pass(command, design)
 """
 
+# For bench.start: each test begins as if the simulation did.
+FORGET = """\
+  integer place;
+  reg forget = 1'b0;
+  always @(posedge forget) begin
+    was_reset = 1'b0;
+{registers}
+  end
+"""
+REGISTER = re.compile(r"^  reg (?:\[\d+:0\] )?(\S+) *(?:\[(\d+):0\])?;$", re.M)
+
 # Outputs that are never unknown while the reset is off.
 CONTROL = re.compile(r"(?:valid|ready|idle|enter|phase|filled)_o")
 WATCH = """\
   // X or Z at an output of control after a clock of reset
-  reg was_reset = 1'b0;
   always @(posedge clk_i) begin
     was_reset <= was_reset || rst_ni === 1'b0;
     if (was_reset && rst_ni === 1'b1 && ^{{{outputs}}} === 1'bx) begin
@@ -46,6 +56,31 @@ WATCH = """\
     end
   end
 """
+
+
+# Icarus does some hundred clocks a second of the largest modules. Of their tests only these are run: name of the test
+# file, and names of cocotb tests.
+SLOW = {
+    "test_core": ("equals_golden/scene=torus/rule=certified",),
+}
+
+
+def chosen(module, checks):
+    """Names of the cocotb tests of the test file ``module`` to be run, None for all."""
+    return [name for name in SLOW[module] if not checks or name in checks] if module in SLOW else checks
+
+
+def left_out(toplevel):
+    """For the table: which tests of a module are not run."""
+    names = SLOW.get(toplevel.replace("rdx_", "test_"))
+    return f"slow: all but {', '.join(names)}" if names else "none"
+
+
+def record(**facts):
+    """Append what a run gave to the file that RAYDIX_RECORD names, if there is one; ``scripts/second.py`` reads it."""
+    if os.environ.get("RAYDIX_RECORD"):
+        with open(os.environ["RAYDIX_RECORD"], "a") as out:
+            out.write(json.dumps(facts) + "\n")
 
 
 def found():
@@ -78,13 +113,20 @@ def elaborate(toplevel, parameters, files):
     return ports, values
 
 
-def shell(toplevel, ports, values):
+def forgotten(netlist):
+    """Statements that make every register and memory of the netlist X again."""
+    for name, last in REGISTER.findall(netlist):
+        place = f"netlist.{name} "
+        yield f"for (place = 0; place <= {last}; place = place + 1) {place}[place] = 'bx;" if last else f"{place}= 'bx;"
+
+
+def shell(toplevel, ports, values, netlist):
     """Verilog text of a module ``toplevel`` without ports, around ``<toplevel>_netlist``.
 
     What were ports are registers, so an input is X until a test sets it, and wires; unpacked arrays have one dimension,
     their elements in the order of the source.
     """
-    lines = ["`timescale 1ns / 1ns", f"module {toplevel};"]
+    lines = ["`timescale 1ns / 1ns", f"module {toplevel};", "  reg was_reset = 1'b0;"]
     lines += [f"  localparam {name} = {value};" for name, value in values]
     flat = []
     for name, given, width, count, scalar in ports:
@@ -102,6 +144,7 @@ def shell(toplevel, ports, values):
             lines += [f"  assign {e} = flat_{name}[{a}+:{width}];" for e, a in zip(elements, at, strict=True)]
         flat.append(f".{name}(flat_{name})")
     lines.append(f"  {toplevel}_netlist netlist ({', '.join(flat)});")
+    lines.append(FORGET.format(registers="\n".join(f"    {line}" for line in forgotten(netlist))))
     names = [name for name, *_ in ports]
     watched = [name for name, given, *_ in ports if not given and CONTROL.search(name)]
     if watched and "rst_ni" in names:
@@ -132,7 +175,6 @@ def build(toplevel, parameters, files=None):
         work.mkdir()
         ports, values = elaborate(toplevel, parameters, files)
         outer, netlist = work / "shell.v", work / "netlist.v"
-        outer.write_text(shell(toplevel, ports, values))
         read = f"read_slang --top {toplevel} -I {RTL} -D SYNTHESIS "
         read += " ".join([*(f"-G {name}={value}" for name, value in parameters.items()), *map(str, files)])
         commands = [read, *(p.format(top=toplevel, out=netlist) for p in PASSES)]
@@ -141,8 +183,9 @@ def build(toplevel, parameters, files=None):
             status = subprocess.run(program, stdout=out, stderr=subprocess.STDOUT, cwd=ROOT).returncode
         if status:
             raise RuntimeError(f"{toplevel} {parameters}: yosys fails; log: {log}")
-        if re.search(r"^\s*initial\b", netlist.read_text(), re.M):
-            raise RuntimeError(f"{toplevel} {parameters}: the netlist has initial values: {netlist}")
+        if re.search(r"\binitial\b|^  reg .*=", netlist.read_text(), re.M):
+            raise RuntimeError(f"{toplevel} {parameters}: the netlist has initial values")
+        outer.write_text(shell(toplevel, ports, values, netlist.read_text()))
         try:
             get_runner("icarus").build(
                 hdl_toplevel=toplevel, sources=[outer, netlist], build_dir=work, log_file=log,
@@ -152,5 +195,5 @@ def build(toplevel, parameters, files=None):
             raise RuntimeError(f"{toplevel} {parameters}: iverilog fails; log: {log}\n{tail}") from error
         with contextlib.suppress(OSError):  # another worker was first
             os.replace(work, target)
-        log.unlink()
+        log.unlink(missing_ok=True)
     return target
