@@ -24,7 +24,14 @@ BUILD = ROOT / "build" / "second"
 MISSING = "iverilog is missing (Debian: apt-get install iverilog)"
 
 # -noopt and pmuxtree: what an X does is for the simulator to find out; a casez would take X for no match
-PASSES = ("proc -noopt", "pmuxtree", "opt_clean", "rename {top} {top}_netlist", "write_verilog -noattr {out}")
+PASSES = (
+    "proc -noopt",
+    "pmuxtree",
+    "opt_clean",
+    "splitnets -driver",
+    "rename {top} {top}_netlist",
+    "write_verilog -noattr {out}",
+)
 YOSYS = """
 import json, sys
 from pyosys import libyosys
@@ -61,7 +68,10 @@ WATCH = """\
 # Icarus does some hundred clocks a second of the largest modules. Of their tests only these are run: name of the test
 # file, and names of cocotb tests.
 SLOW = {
+    "test_algebraic": ("equals_model/idle=0.8/stall=0.3", "reset_empties"),
     "test_core": ("equals_golden/scene=torus/rule=certified",),
+    "test_ring": ("equals_model/idle=0.3/stall=0.3", "reset_empties"),
+    "test_vector": ("equals_model/idle=0.8/stall=0.7", "reset_makes_idle"),
 }
 
 
@@ -109,8 +119,8 @@ def elaborate(toplevel, parameters, files):
         while kind.isUnpackedArray:
             count, kind = (count or 1) * kind.fixedRange.width, kind.elementType
         ports.append((port.name, port.direction.name == "In", kind.bitWidth, count, kind.isScalar))
-    values = [(p.name, str(p.value)) for p in body.parameters if isinstance(p, pyslang.ast.ParameterSymbol)]
-    return ports, values
+    numbers = [p for p in body.parameters if isinstance(p, pyslang.ast.ParameterSymbol) and p.type.isIntegral]
+    return ports, [(p.name, str(p.value)) for p in numbers]
 
 
 def forgotten(netlist):
