@@ -15,9 +15,11 @@ import inspect
 import io
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -30,6 +32,12 @@ ROOT = Path(__file__).resolve().parents[1]
 TB = ROOT / "tb"
 PAGE = ROOT / "docs" / "verification.md"
 HEADER = ("module", "parameter sets", "tests", "passed", "left out")
+
+# Parameter sets that take Icarus many minutes each: many lanes or cells, or all cells within one clock.
+SLOW = re.compile(
+    r"test_ring\.py.*(N1=4|Lanes=[37])|test_vector\.py.*N1=2|test_lanes\.py.*(7 on [1347]|15 on|general)"
+    r"|test_sample\.py.*Lanes=7|test_step\.py.*(N1=4|Lanes=[37]|HalveStages=0)|test_split\.py.*N1=4"
+)
 sys.path.insert(0, str(TB))
 
 import second  # noqa: E402
@@ -55,6 +63,12 @@ def collect(modules):
     return collector.found
 
 
+def shorter(names):
+    """Those that are not slow, and how many of each module are."""
+    slow = [name for name in names if SLOW.search(name)]
+    return [name for name in names if name not in slow], Counter(re.search(r"test_(\w+)\.py", n)[1] for n in slow)
+
+
 def simulate(names, jobs, seed):
     """Run the pytest tests under Icarus; the runs as :func:`bench.run` records them, and whether pytest is content."""
     with tempfile.TemporaryDirectory() as folder:
@@ -66,14 +80,16 @@ def simulate(names, jobs, seed):
     return [json.loads(line) for line in lines], status == 0
 
 
-def table(runs):
+def table(runs, left):
     """Rows: module, parameter sets, tests, tests passed, tests left out."""
     rows = []
     for module in sorted({run["module"] for run in runs}):
         mine = [run for run in runs if run["module"] == module]
         sets = {json.dumps(run["parameters"], sort_keys=True) for run in mine}
         passed, failed = sum(run["passed"] for run in mine), sum(len(run["failed"]) for run in mine)
-        rows.append([module, str(len(sets)), str(passed + failed), str(passed), second.left_out(module)])
+        slow = left[module.removeprefix("rdx_")]
+        out = [second.left_out(module)] + ([f"slow: {slow} parameter set{'s' * (slow > 1)}"] if slow else [])
+        rows.append([module, str(len(sets)), str(passed + failed), str(passed), "; ".join(filter(None, out)) or "none"])
     return rows
 
 
@@ -85,6 +101,7 @@ def main(arguments=None):
     parser.add_argument("module", nargs="*", help="all if none is named")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--seed", default=os.environ.get("SEED", ""), help="of all runs; one for each if not given")
+    parser.add_argument("--all", action="store_true", help="the slow parameter sets, too: hours")
     parser.add_argument("--write", action="store_true", help="renew the table of docs/verification.md")
     options = parser.parse_args(arguments)
     modules = [name.removeprefix("rdx_") for name in options.module]
@@ -97,9 +114,11 @@ def main(arguments=None):
     if not second.found():
         print(f"second: {second.MISSING}", file=sys.stderr)
         return 2
-    names = collect(modules or known)
+    names, left = collect(modules or known), Counter()
+    if not options.all:
+        names, left = shorter(names)
     runs, content = simulate(names, options.jobs, options.seed)
-    rows, bad = table(runs), [run for run in runs if run["failed"]]
+    rows, bad = table(runs, left), [run for run in runs if run["failed"]]
     shown = Table(*HEADER)
     for row in rows:
         shown.add_row(*row)

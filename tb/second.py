@@ -8,6 +8,7 @@ netlist has flat ports and no parameters; a shell around it has both again, unde
 
 import contextlib
 import hashlib
+import inspect
 import json
 import os
 import re
@@ -83,7 +84,7 @@ def chosen(module, checks):
 def left_out(toplevel):
     """For the table: which tests of a module are not run."""
     names = SLOW.get(toplevel.replace("rdx_", "test_"))
-    return f"slow: all but {', '.join(names)}" if names else "none"
+    return f"slow: all tests but {', '.join(names)}" if names else ""
 
 
 def record(**facts):
@@ -173,7 +174,16 @@ def build(toplevel, parameters, files=None):
 
     files = list(files or sources())
     icarus = subprocess.run(["iverilog", "-V"], capture_output=True, text=True).stdout.splitlines()[0]
-    tools = [version("pyosys"), version("pyslang"), version("cocotb"), icarus, Path(__file__).read_text()]
+    tools = [
+        version("pyosys"),
+        version("pyslang"),
+        version("cocotb"),
+        icarus,
+        PASSES,
+        *map(inspect.getsource, (elaborate, shell, forgotten)),
+        FORGET,
+        WATCH,
+    ]
     contents = [p.read_text() for p in (*files, *sorted(RTL.glob("*.svh")))]
     facts = json.dumps([toplevel, sorted(parameters.items()), tools, contents]).encode()
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
