@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal regress second clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -32,10 +32,16 @@ render: $(READY) ## golden model and RTL render the paper's figure 2, or SCENE=,
 gallery: $(READY) ## the same for every scene in scenes/
 	@$(BIN)/raydix verify scenes/*.toml $(ARGS)
 
-test: $(READY) ## the whole regression (T=<module> SEED=<n> WAVES=1 JOBS=2)
+test: $(READY) ## the regression without what is marked long; one file as a whole (T=<module> SEED=<n> WAVES=1 JOBS=2)
 	@[ -z "$(T)" ] || [ -f "tb/test_$(MODULE).py" ] || { \
 	  echo "make test: found T=$(T); allowed: $(patsubst tb/test_%.py,%,$(wildcard tb/test_*.py))" >&2; exit 2; }
-	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),-v tb/test_$(MODULE).py)
+	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),-v tb/test_$(MODULE).py,-m "not long")
+
+regress: $(READY) ## every test (SEED=<n> JOBS=2)
+	@SEED="$(SEED)" WAVES= $(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+
+second: $(READY) ## the module tests under Icarus Verilog, with four-state values (T=<module> SEED=<n> JOBS=2 ARGS=)
+	@$(BIN)/python scripts/second.py $(MODULE) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) $(ARGS)
 
 formal: $(READY) ## machine proofs of the RTL, of POINT= or all of them, each also of a broken design (ARGS=)
 	@$(BIN)/python scripts/formal.py $(POINT) $(ARGS)

@@ -7,6 +7,8 @@
 // Formats    a_i, b_i: s36p0. product_o: s<W>p0, the low W bits of the result.
 // Rounding   floor.    Overflow   the caller's W holds the result.
 // Timing     latency 3 clocks in which en_i = 1, one product a clock; no reset.
+// Note       the low halves are extended by zeros, not by a cast: read_slang of yosys 0.70 takes a part of a vector for signed
+//            where a typedef made the vector signed.
 // Model      model/raydix/multiply.py
 `default_nettype none
 
@@ -46,7 +48,7 @@ module rdx_multiply #(
       high_q <= twice_t'(a1) * twice_t'(b1);
       left_q <= twice_t'(a1) * twice_t'(bs);
       right_q <= twice_t'(as) * twice_t'(b1);
-      low_q <= (2 * Half)'(a_i[Half-1:0]) * (2 * Half)'(b_i[Half-1:0]);
+      low_q <= {{Half{1'b0}}, a_i[Half-1:0]} * {{Half{1'b0}}, b_i[Half-1:0]};  // no cast, see Note
       carry_q <= (b_i[Half-1] ? (Half + 1)'(a1) : '0) + (a_i[Half-1] ? (Half + 1)'(b1) : '0);
       high_qq <= high_q;
       low_qq <= low_q;

@@ -22,14 +22,19 @@ from unittest.mock import patch
 from xml.etree import ElementTree
 
 import cocotb
+import pytest
 from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
+import second
 from raydix import formats
 from raydix.rtl import ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources
 
 BUILD = ROOT / "build" / "tb"
 WAVES = ROOT / "build" / "waves"
+
+# Registers begin with random values, of the run's seed; what the source leaves open is random, too.
+BUILD_ARGUMENTS = ["--assert", "--x-initial", "unique", "--x-assign", "unique"]
 
 # Verilator's runtime is compiled once and copied. The rest is one small file: compiling it at -O0 costs less than
 # a faster simulation would save. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled headers.
@@ -58,7 +63,7 @@ def build(toplevel, parameters, waves=None):
     from cocotb_tools.runner import get_runner
 
     files = [*sources(), *sorted(RTL.glob("*.svh"))]
-    tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES]
+    tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES, BUILD_ARGUMENTS]
     facts = b"".join(p.read_bytes() for p in files) + repr([sorted(parameters.items()), tools]).encode()
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
     if (target / toplevel).exists():
@@ -74,7 +79,7 @@ def build(toplevel, parameters, waves=None):
         try:
             get_runner("verilator").build(
                 hdl_toplevel=toplevel, sources=sources(), includes=[RTL], parameters=parameters, build_dir=work,
-                build_args=["--assert", *(_trace_arguments(toplevel, waves) if waves else [])],
+                build_args=[*BUILD_ARGUMENTS, *(_trace_arguments(toplevel, waves) if waves else [])],
                 waves=bool(waves), log_file=log,
             )  # fmt: skip
         except RuntimeError as error:
@@ -101,28 +106,32 @@ def run(module, toplevel, parameters=None, checks=None):
     """
     from cocotb_tools.runner import get_results, get_runner
 
+    icarus = os.environ.get("SIMULATOR") == "icarus"
+    if icarus and not second.found():
+        pytest.skip(second.MISSING)
+    checks = second.chosen(module, checks) if icarus else checks
     parameters = parameters or {}
     seed = int(os.environ.get("SEED") or secrets.randbelow(1 << 31))
     name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{'-'.join(checks)}" if checks else "")
     replay = f"make test T={module.removeprefix('test_')} SEED={seed}"
     print(f"{name}: SEED={seed}, replay: {replay}")
-    waves = ("fst" if has_fst() else "vcd") if os.environ.get("WAVES") not in (None, "", "0") else None
-    arguments = []
+    waves = ("fst" if has_fst() else "vcd") if os.environ.get("WAVES") not in (None, "", "0") and not icarus else None
+    arguments = [] if icarus else ["+verilator+rand+reset+2", f"+verilator+seed+{seed % 0x7FFFFFFF + 1}"]
     if waves:
         file = WAVES / f"{name}.{waves}"
         WAVES.mkdir(parents=True, exist_ok=True)
-        arguments = ["--trace", "--trace-file", str(file)]
+        arguments += ["--trace", "--trace-file", str(file)]
         # a warning, because pytest shows those of tests that pass, too, and by parallel workers
         warnings.warn(f"waveform ({'lz4.h found' if waves == 'fst' else 'no lz4.h, so not fst'}): {file}", stacklevel=2)
     settings = {**environment(), "MAKEFLAGS": MAKE_VARIABLES, "WAVES": ""}
     with patch.dict(os.environ, settings):
         os.environ.pop("PYTEST_CURRENT_TEST", None)  # else the runner ends the process where a test fails
-        target = build(toplevel, parameters, waves)
-        with tempfile.TemporaryDirectory(prefix="run-", dir=BUILD) as folder:
+        target = second.build(toplevel, parameters) if icarus else build(toplevel, parameters, waves)
+        with tempfile.TemporaryDirectory(prefix="run-", dir=target.parent) as folder:
             results = Path(folder, "results.xml")
             ended = ""
             try:
-                get_runner("verilator").test(
+                get_runner("icarus" if icarus else "verilator").test(
                     test_module=module, hdl_toplevel=toplevel, hdl_toplevel_lang="verilog", build_dir=target,
                     test_dir=folder, results_xml=str(results), seed=seed, test_args=arguments, testcase=checks,
                     extra_env={"RAYDIX_INTERPRET": "1", "RAYDIX_REPLAY": replay, "COCOTB_REWRITE_ASSERTION_FILES": ""},
@@ -133,6 +142,7 @@ def run(module, toplevel, parameters=None, checks=None):
             count, failed = get_results(results)
             cases = list(ElementTree.parse(results).getroot().iter("testcase"))
             bad = [c.get("name") for c in cases if c.find("failure") is not None or c.find("error") is not None]
+            second.record(module=toplevel, parameters=parameters, seed=seed, passed=count - failed, failed=bad)
             executed = count - len([c for c in cases if c.find("skipped") is not None])
     assert executed >= max(1, len(checks or ())), f"{name}: {executed} checks were executed"
     assert not failed and not ended, f"{name}: {failed} of {count} failed: {', '.join(map(str, bad))}{ended}; {replay}"
@@ -265,8 +275,14 @@ def parameter(dut, name):
 
 
 async def start(dut):
-    """Start the clock; where there is a reset, hold it for four clocks. Ends at a falling edge."""
+    """Start the clock, with en_i = 1; where there is a reset, hold it for four clocks. Ends at a falling edge."""
+    if hasattr(dut, "forget"):  # the shell of the second simulator
+        dut.forget.value = 1
+        await Timer(1, unit="ns")
+        dut.forget.value = 0
     Clock(dut.clk_i, 10, unit="ns").start(start_high=False)
+    if hasattr(dut, "en_i"):
+        dut.en_i.value = 1
     if hasattr(dut, "rst_ni"):
         dut.rst_ni.value = 0
         for _ in range(4):
@@ -305,8 +321,8 @@ class Port:
             handle.value = word
 
     def read(self):
-        """The port's elements as unsigned integers."""
-        return [int(handle.value) for handle in self.handles]
+        """The port's elements as unsigned integers; None for one with an X or Z."""
+        return [_integer(handle.value) for handle in self.handles]
 
     def differences(self, expected, got):
         """Lines that tell where two results of :meth:`words` differ; empty if they agree."""
@@ -314,7 +330,9 @@ class Port:
         for i, (e, g) in enumerate(zip(expected, got, strict=True)):
             if e is None or e == g:
                 continue
-            if self.struct:
+            if g is None:
+                lines.append(f"{self.name}[{i}]: expected {_hex(e, None)}, got {self.handles[i].value}")
+            elif self.struct:
                 e_fields, g_fields = self.struct.unpack(e), self.struct.unpack(g)
                 lines += [f"{self.name}.{f}: {_both(e_fields[f], g_fields[f])}" for f in e_fields
                           if e_fields[f] != g_fields[f]]  # fmt: skip
@@ -330,6 +348,13 @@ def _flat_list(value):
             yield from _flat_list(v)
         else:
             yield v
+
+
+def _integer(value):
+    try:
+        return int(value)
+    except ValueError:
+        return None
 
 
 def _hex(value, width):

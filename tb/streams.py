@@ -58,7 +58,8 @@ class Sink:
             ready = self.rng.random() >= self.stall
             self.ready.value = int(ready)
             await ReadOnly()
-            valid, words = bool(self.valid.value), self.port.read()
+            valid = bool(self.valid.value)
+            words = self.port.read() if valid else None  # without valid they are anything
             if waiting is not None:
                 assert valid, f"{self.port.name}: valid fell before ready, after {len(self.received)} items"
                 assert words == waiting, f"{self.port.name}: {waiting} became {words} before ready"

@@ -122,8 +122,9 @@ async def under_way(dut, random, rate):
         await ReadOnly()
         if count:
             assert port.read() == form, "the constants have changed below a ray"
-        form = port.read()
         taken = dut.ray_valid_o.value == 1 and dut.ray_ready_i.value == 1 and dut.vector_o.value == 1
+        if taken:
+            form = port.read()
         await FallingEdge(dut.clk_i)
         count += taken
         while count and random.random() < rate:

@@ -368,9 +368,9 @@ def test_ring(parameters):
 
 
 VECTOR_CASES = [
-    dict(N1=3, K=8, U=1, Rules=BOTH, Lanes=7, General=0),
+    pytest.param(dict(N1=3, K=8, U=1, Rules=BOTH, Lanes=7, General=0), marks=pytest.mark.long),
     dict(N1=2, K=5, U=2, Rules=CERTIFIED, Lanes=1, General=1),
-    dict(N1=3, K=4, U=2, Rules=PAPER_RULE, Lanes=3, General=0),
+    pytest.param(dict(N1=3, K=4, U=2, Rules=PAPER_RULE, Lanes=3, General=0), marks=pytest.mark.long),
 ]
 
 

@@ -98,7 +98,10 @@ async def reset_makes_idle(dut):
     watch.cancel()
 
 
-CASES = [dict(N1=2, K=5, U=2, Rules=ring.BOTH, Lanes=2, General=1), dict(N1=1, K=12, U=1, Rules=1, Lanes=1, General=0)]
+CASES = [
+    dict(N1=2, K=5, U=2, Rules=ring.BOTH, Lanes=2, General=1),
+    pytest.param(dict(N1=1, K=12, U=1, Rules=1, Lanes=1, General=0), marks=pytest.mark.long),
+]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)

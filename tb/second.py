@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A module for the second simulator, Icarus Verilog, whose signals have four states: everything begins as X.
+
+Icarus does not read the sources. yosys reads them and writes them as plain Verilog, without an optimisation: every
+register, memory and operator of the source is there, and an X at a choice becomes an X of what depends on it. The
+netlist has flat ports and no parameters; a shell around it has both again, under the names that the tests use.
+"""
+
+import contextlib
+import hashlib
+import inspect
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from importlib.metadata import version
+from pathlib import Path
+
+from raydix.rtl import ROOT, RTL, sources
+
+BUILD = ROOT / "build" / "second"
+MISSING = "iverilog is missing (Debian: apt-get install iverilog)"
+
+# -noopt and pmuxtree: what an X does is for the simulator to find out; a casez would take X for no match
+PASSES = (
+    "proc -noopt",
+    "pmuxtree",
+    "opt_clean",
+    "splitnets -driver",
+    "rename {top} {top}_netlist",
+    "write_verilog -noattr {out}",
+)
+YOSYS = """
+import json, sys
+from pyosys import libyosys
+design = libyosys.Design()
+for command in json.loads(sys.argv[1]):
+    libyosys.run_pass(command, design)
+"""
+
+# For bench.start: each test begins as if the simulation did.
+FORGET = """\
+  integer place;
+  reg forget = 1'b0;
+  always @(posedge forget) begin
+    was_reset = 1'b0;
+{registers}
+  end
+"""
+REGISTER = re.compile(r"^  reg (?:\[\d+:0\] )?(\S+) *(?:\[(\d+):0\])?;$", re.M)
+
+# Outputs that are never unknown while the reset is off.
+CONTROL = re.compile(r"(?:valid|ready|idle|enter|phase|filled)_o")
+WATCH = """\
+  // X or Z at an output of control after a clock of reset
+  always @(posedge clk_i) begin
+    was_reset <= was_reset || rst_ni === 1'b0;
+    if (was_reset && rst_ni === 1'b1 && ^{{{outputs}}} === 1'bx) begin
+      $display("unknown output of control: {formats}", {outputs});
+      $finish_and_return(1);
+    end
+  end
+"""
+
+
+# Icarus does some hundred clocks a second of the largest modules. Of their tests only these are run: name of the test
+# file, and names of cocotb tests.
+SLOW = {
+    "test_algebraic": ("equals_model/idle=0.8/stall=0.3", "reset_empties"),
+    "test_core": ("equals_golden/scene=torus/rule=certified",),
+    "test_ring": ("equals_model/idle=0.3/stall=0.3", "reset_empties"),
+    "test_vector": ("reset_makes_idle",),
+}
+
+
+def chosen(module, checks):
+    """Names of the cocotb tests of the test file ``module`` to be run, None for all."""
+    return [name for name in SLOW[module] if not checks or name in checks] if module in SLOW else checks
+
+
+def left_out(toplevel):
+    """For the table: which tests of a module are not run."""
+    names = SLOW.get(toplevel.replace("rdx_", "test_"))
+    return f"slow: all tests but {', '.join(names)}" if names else ""
+
+
+def record(**facts):
+    """Append what a run gave to the file that RAYDIX_RECORD names, if there is one; ``scripts/second.py`` reads it."""
+    if os.environ.get("RAYDIX_RECORD"):
+        with open(os.environ["RAYDIX_RECORD"], "a") as out:
+            out.write(json.dumps(facts) + "\n")
+
+
+def found():
+    """Whether Icarus Verilog is installed."""
+    return shutil.which("iverilog") is not None
+
+
+def elaborate(toplevel, parameters, files):
+    """What slang finds: ports (name, whether an input, bits of an element, elements, whether scalar); parameters.
+
+    The number of elements is None for a port that is not an unpacked array. Raises RuntimeError where slang objects.
+    """
+    import pyslang
+
+    driver = pyslang.driver.Driver()
+    driver.addStandardArgs()
+    names = " ".join(f'"{p}"' for p in files)
+    values = " ".join(f"-G {name}={value}" for name, value in parameters.items())
+    read = driver.parseCommandLine(f'slang --top {toplevel} -I "{RTL}" -D SYNTHESIS {values} {names}')
+    if not (read and driver.processOptions() and driver.parseAllSources()):
+        raise RuntimeError(f"{toplevel} {parameters}: slang cannot read it")
+    body = driver.createCompilation().getRoot().topInstances[0].body
+    ports = []
+    for port in body.portList:
+        count, kind = None, port.type
+        while kind.isUnpackedArray:
+            count, kind = (count or 1) * kind.fixedRange.width, kind.elementType
+        ports.append((port.name, port.direction.name == "In", kind.bitWidth, count, kind.isScalar))
+    numbers = [p for p in body.parameters if isinstance(p, pyslang.ast.ParameterSymbol) and p.type.isIntegral]
+    return ports, [(p.name, str(p.value)) for p in numbers]
+
+
+def forgotten(netlist):
+    """Statements that make every register and memory of the netlist X again."""
+    for name, last in REGISTER.findall(netlist):
+        place = f"netlist.{name} "
+        yield f"for (place = 0; place <= {last}; place = place + 1) {place}[place] = 'bx;" if last else f"{place}= 'bx;"
+
+
+def shell(toplevel, ports, values, netlist):
+    """Verilog text of a module ``toplevel`` without ports, around ``<toplevel>_netlist``.
+
+    What were ports are registers, so an input is X until a test sets it, and wires; unpacked arrays have one dimension,
+    their elements in the order of the source.
+    """
+    lines = ["`timescale 1ns / 1ns", f"module {toplevel};", "  reg was_reset = 1'b0;"]
+    lines += [f"  localparam {name} = {value};" for name, value in values]
+    flat = []
+    for name, given, width, count, scalar in ports:
+        kind, bits = "reg" if given else "wire", "" if scalar else f"[{width - 1}:0] "
+        if count is None:
+            lines.append(f"  {kind} {bits}{name};")
+            flat.append(f".{name}({name})")
+            continue
+        elements = [f"{name}[{i}]" for i in range(count)]
+        lines += [f"  {kind} {bits}{name} [0:{count - 1}];", f"  wire [{width * count - 1}:0] flat_{name};"]
+        if given:
+            lines.append(f"  assign flat_{name} = {{{', '.join(elements)}}};")
+        else:  # the first element is the most significant
+            at = [(count - 1 - i) * width for i in range(count)]
+            lines += [f"  assign {e} = flat_{name}[{a}+:{width}];" for e, a in zip(elements, at, strict=True)]
+        flat.append(f".{name}(flat_{name})")
+    lines.append(f"  {toplevel}_netlist netlist ({', '.join(flat)});")
+    lines.append(FORGET.format(registers="\n".join(f"    {line}" for line in forgotten(netlist))))
+    names = [name for name, *_ in ports]
+    watched = [name for name, given, *_ in ports if not given and CONTROL.search(name)]
+    if watched and "rst_ni" in names:
+        formats = ", ".join(f"{name} = %b" for name in watched)
+        lines.append(WATCH.format(outputs=", ".join(watched), formats=formats))
+    return "\n".join([*lines, "endmodule", ""])
+
+
+def build(toplevel, parameters, files=None):
+    """Folder with the compiled ``sim.vvp`` of ``toplevel``; built unless the same sources were built before.
+
+    files   the sources; those of ``rtl/rdx.f`` if not given
+    Raises RuntimeError where a tool fails.
+    """
+    from cocotb_tools.runner import get_runner
+
+    files = list(files or sources())
+    icarus = subprocess.run(["iverilog", "-V"], capture_output=True, text=True).stdout.splitlines()[0]
+    tools = [
+        version("pyosys"),
+        version("pyslang"),
+        version("cocotb"),
+        icarus,
+        PASSES,
+        *map(inspect.getsource, (elaborate, shell, forgotten)),
+        FORGET,
+        WATCH,
+    ]
+    contents = [p.read_text() for p in (*files, *sorted(RTL.glob("*.svh")))]
+    facts = json.dumps([toplevel, sorted(parameters.items()), tools, contents]).encode()
+    target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
+    if (target / "sim.vvp").exists():
+        return target
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
+        work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
+        work.mkdir()
+        ports, values = elaborate(toplevel, parameters, files)
+        outer, netlist = work / "shell.v", work / "netlist.v"
+        read = f"read_slang --top {toplevel} -I {RTL} -D SYNTHESIS "
+        read += " ".join([*(f"-G {name}={value}" for name, value in parameters.items()), *map(str, files)])
+        commands = [read, *(p.format(top=toplevel, out=netlist) for p in PASSES)]
+        with open(log, "w") as out:
+            program = [sys.executable, "-c", YOSYS, json.dumps(commands)]
+            status = subprocess.run(program, stdout=out, stderr=subprocess.STDOUT, cwd=ROOT).returncode
+        if status:
+            raise RuntimeError(f"{toplevel} {parameters}: yosys fails; log: {log}")
+        if re.search(r"\binitial\b|^  reg .*=", netlist.read_text(), re.M):
+            raise RuntimeError(f"{toplevel} {parameters}: the netlist has initial values")
+        outer.write_text(shell(toplevel, ports, values, netlist.read_text()))
+        try:
+            get_runner("icarus").build(
+                hdl_toplevel=toplevel, sources=[outer, netlist], build_dir=work, log_file=log,
+            )  # fmt: skip
+        except RuntimeError as error:
+            tail = "\n".join(log.read_text().splitlines()[-15:])
+            raise RuntimeError(f"{toplevel} {parameters}: iverilog fails; log: {log}\n{tail}") from error
+        with contextlib.suppress(OSError):  # another worker was first
+            os.replace(work, target)
+        log.unlink(missing_ok=True)
+    return target
