@@ -27,7 +27,8 @@ class Judged(NamedTuple):
 
     hit, missed, false, wrong   (N) bool. missed: a root and nothing found; wrong: f turns between the first root and
           what was found, so that this belongs to another root
-    band    (N) bool, of those three: an extremum or end of f is so near to 0 that rounding may decide
+    band    (N) bool, of those three: an extremum or end of f is so near to 0 that rounding may decide,
+          or two roots are less than an ulp apart
     error   (N) float64, ulp of t from the first exact root, nan where nothing is to be compared
     well    (N) bool, the first root is well-conditioned: rounding cannot move it by more than `WELL` ulp
     given_up  (N) bool, no root found in as many steps as can be counted; none of missed, false, wrong
@@ -117,7 +118,10 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
     """First roots t (N) int64, -1 = none, against the changes of the words (N, degree + 1), computed if not given."""
     digits = config.digits
     ulp = 2.0**-digits
-    exact = resolved(changes(segments.b) if exact is None else exact, digits)
+    exact = changes(segments.b) if exact is None else exact
+    with np.errstate(invalid="ignore"):
+        together = (np.diff(exact, axis=1) < ulp).any(axis=1)
+    exact = resolved(exact, digits)
     sure, possible = places(segments, exact, digits)
     found, count = t >= 0, np.arange(len(t))
     first = np.where(sure.any(axis=1), sure.argmax(axis=1), exact.shape[1])
@@ -140,7 +144,7 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
         peaks = extrema(b)
         low, top = sorted((root[i], (t[i] + 0.5) * ulp))
         wrong[i] = error[i] > 2 and any(low < place < top for place, _ in peaks)
-        band[i] = any(-rounding <= v <= high for v in (b[0], b[-1], *(v for _, v in peaks)))
+        band[i] = together[i] or any(-rounding <= v <= high for v in (b[0], b[-1], *(v for _, v in peaks)))
     error = np.where(wrong, np.nan, error)
     return Judged(sure.any(axis=1), missed, false, wrong, band, error, well, np.zeros(len(t), bool))
 
