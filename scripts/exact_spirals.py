@@ -155,9 +155,9 @@ def main() -> int:
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--write", action="store_true", help="renew the table in docs/exact.md")
     args = parser.parse_args()
-    for name in ("spirals", "chords", "processes"):
-        if getattr(args, name) < 1:
-            parser.error(f"--{name}: found {getattr(args, name)}; allowed: 1 or more")
+    for name, least in (("spirals", 1), ("chords", 1), ("processes", 1), ("seed", 0)):
+        if getattr(args, name) < least:
+            parser.error(f"--{name}: found {getattr(args, name)}; allowed: {least} or more")
     made = list(rows(args.spirals, args.chords, args.seed, args.processes))
     table = Table(title=f"{args.spirals} random spirals, {args.chords:,} chords of each kind, seed {args.seed}")
     for column in HEADER:

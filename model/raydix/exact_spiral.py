@@ -28,7 +28,7 @@ EFFORT = 2000  # cells tried for it
 class Root(NamedTuple):
     """A sign change of the indicator on a chord.
 
-    t       enclosure, about 2^-64 wide
+    t       enclosure, at most 2^-64 wide, but for a change within what would else be a :class:`Gap`
     before  a point (exact ball) at which the indicator has its sign before the change, for certain
     after   one at which it has the sign after it; between them there is no other change, unless they are as close to
             each other as the enclosure is wide
