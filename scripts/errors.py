@@ -71,7 +71,7 @@ def coordinate_rows(count: int, seed: int):
 def text(row) -> list[str]:
     """The cells of a row."""
     name, unit, cases, bound, found = row
-    return [name, unit, f"{cases:,}", f"{bound:.2f}", f"{found:.2f}", f"{found / bound:.2f}" if bound else ""]
+    return [name, unit, f"{cases:,}", f"{bound:.2f}", f"{abs(found):.2f}", f"{found / bound:.2f}" if bound else ""]
 
 
 def main() -> int:

@@ -228,6 +228,20 @@ def test_nothing_in_view(tmp_path, capsys):
     assert (np.load(tmp_path / "out" / "away.npz")["surface"] == -1).all()
 
 
+def test_rays_given_up_are_told(tmp_path, capsys, monkeypatch):
+    """Where a ray reached the largest count of steps a word says that roots may be missing; else none."""
+    from raydix import cli, hits
+
+    scene = tmp_path / "scene.toml"
+    scene.write_text(TORUS)
+    assert main(["render", str(scene), *SMALL, "--out", str(tmp_path / "out")]) == 0
+    assert "given up" not in capsys.readouterr().err
+    monkeypatch.setattr(hits, "STEPS_MAX", 8)  # as many as most rays that hit have taken
+    monkeypatch.setattr(cli, "STEPS_MAX", 8)
+    assert main(["render", str(scene), *SMALL, "--out", str(tmp_path / "out")]) == 0
+    assert "rays were given up after 8 steps; roots may be missing" in capsys.readouterr().err
+
+
 def test_wave_into_a_new_folder(tmp_path):
     """The folder of a waveform is made; one that cannot be is an error."""
     base = ["render", str(ROOT / "scenes" / "sphere.toml"), "--backend", "rtl", "--size", "8x6", "--units", "1"]

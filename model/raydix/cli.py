@@ -14,9 +14,10 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from .compile import CompiledFrame
 from .config import RULES, Config, ConfigError
 from .fit import families
+from .formats import STEPS_MAX
+from .hits import FrameHits
 from .image import ImageError, frame_writers, write_files
 from .rtl import RtlError, build
 from .scene import Scene, SceneError, load_scene
@@ -133,11 +134,14 @@ def _build(config: Config, trace: str | None = None) -> None:
         build(config, trace)
 
 
-def _say_what_is_seen(scene: Scene, compiled: CompiledFrame) -> None:
-    """A word on stderr where not all surfaces are in view."""
-    hidden = len(scene.surfaces) - len(compiled.surfaces)
+def _say_what_is_seen(scene: Scene, hits: FrameHits) -> None:
+    """A word on stderr where not all surfaces are in view, and where rays were given up."""
+    hidden = len(scene.surfaces) - len(hits.compiled.surfaces)
     if hidden:
         print(f"raydix: {hidden} of {len(scene.surfaces)} surfaces are out of view", file=sys.stderr)
+    lost = hits.counts()["given_up"]
+    if lost:
+        print(f"raydix: {lost} rays were given up after {STEPS_MAX} steps; roots may be missing", file=sys.stderr)
 
 
 def _render(args: argparse.Namespace) -> int:
@@ -154,7 +158,7 @@ def _render(args: argparse.Namespace) -> int:
             frame = render_golden(scene, config, args.threads, bar("golden model, rays"))
         else:
             frame = render_rtl(scene, config, bar("RTL, rays"), args.wave)
-    _say_what_is_seen(scene, frame.hits.compiled)
+    _say_what_is_seen(scene, frame.hits)
     for path in write_files(frame_writers(frame, args.out, scene.name)):
         print(path)
     return 0
@@ -209,7 +213,7 @@ def _verify(args: argparse.Namespace) -> int:
             bars = bar(f"{scene.name}: golden model, rays"), bar(f"{scene.name}: RTL, rays")
             verdict = verify(scene, config, args.threads, bars)
         write_verdict(verdict, out, scene.name)
-        _say_what_is_seen(scene, verdict.golden.hits.compiled)
+        _say_what_is_seen(scene, verdict.golden.hits)
         verdicts[scene.name] = verdict
         print(f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: {_described(config)}")
     shown = list(verdicts.items())

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .compile import CompiledFrame, CompiledSurface
+from .formats import STEPS_MAX
 
 
 @dataclass
@@ -52,7 +53,7 @@ class FrameHits:
     cycles: int = 0
 
     def counts(self) -> dict[str, float]:
-        """Rays, items that hit, hits, and steps per item that hit and per item that missed."""
+        """Rays, items that hit, hits, steps per item that hit and per item that missed, and items that were given up."""
         steps = [s.steps.astype(np.int64).ravel() for s in self.surfaces]
         found = [(s.t >= 0).sum(axis=2).ravel() for s in self.surfaces]
         steps = np.concatenate(steps) if steps else np.zeros(0, np.int64)
@@ -65,6 +66,7 @@ class FrameHits:
             "steps": int(steps.sum()),
             "steps_per_hit": float(steps[hit].mean()) if hit.any() else 0.0,
             "steps_per_miss": float(steps[~hit].mean()) if (~hit).any() else 0.0,
+            "given_up": int((steps == STEPS_MAX).sum()),
         }
 
 
