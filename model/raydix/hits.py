@@ -53,7 +53,7 @@ class FrameHits:
     cycles: int = 0
 
     def counts(self) -> dict[str, float]:
-        """Rays, items that hit, hits, steps per item that hit and per item that missed, and items that were given up."""
+        """Rays, items that hit, hits, steps per item that hit and that missed, and items that were given up."""
         steps = [s.steps.astype(np.int64).ravel() for s in self.surfaces]
         found = [(s.t >= 0).sum(axis=2).ravel() for s in self.surfaces]
         steps = np.concatenate(steps) if steps else np.zeros(0, np.int64)
