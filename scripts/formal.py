@@ -7,13 +7,15 @@
     scripts/formal.py --write        renew the table in docs/formal.md, too
 
 Each proof is made three times: of the design; of what must be reachable under its assumptions; and of the design broken
-on purpose, which has to be refuted. Results are kept in build/formal by what they depend on. docs/formal.md says what is
-proved and how.
+on purpose, which has to be refuted. Results are kept in build/formal by what they depend on. docs/formal.md says what
+is proved and how.
 
-Exit status 0: everything as it should be; 1: something was not proved, reached or refuted; 2: bad input, or a tool failed.
+Exit status 0: everything as it should be; 1: something was not proved, reached or refuted; 2: bad input or a failed
+tool.
 """
 
 import argparse
+import inspect
 import json
 import re
 import subprocess
@@ -24,13 +26,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pyosys
-from formal_proofs import PROOFS
 from rich.console import Console
 from rich.table import Table
-from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
+from formal_proofs import PROOFS
 from raydix.blocks import write_table
 from raydix.rtl import RTL, sources
+from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
 HARNESSES = ROOT / "tb" / "formal"
 BUILD = ROOT / "build" / "formal"
@@ -57,7 +59,7 @@ NETLIST = ["write_aiger -ascii -symbols {stem}.aag"]
 
 @dataclass
 class Outcome:
-    """What came out of one run: verdict is one of proved, bounded, refuted, open; text names what failed or was reached."""
+    """What came out of one run: verdict is proved, bounded, refuted or open; text names what failed."""
 
     verdict: str
     text: str
@@ -116,7 +118,7 @@ def graph(proof, texts, folder, stem, defines, parameters, write):
 def abc(folder, *commands):
     """Output of ABC."""
     run = subprocess.run([ABC, "-q", "; ".join(commands)], cwd=folder, capture_output=True, text=True)
-    if run.returncode or "Error:" in run.stdout:
+    if "Error:" in run.stdout or run.returncode:
         lines = [line for line in (run.stdout + run.stderr).splitlines() if line.strip()]
         raise SynthError(f"ABC failed: {next((line for line in lines if 'Error' in line), lines[-1:])}")
     return run.stdout
@@ -160,13 +162,13 @@ def prove(proof, folder, stem, broken):
 
 def reach(proof, folder, stem):
     """See that each cover can be reached: (reached, missed), names with their clocks."""
-    listed = names(folder, stem)
-    if not listed:
-        return [], []
-    text = abc(folder, f"read_aiger {stem}.aig", "fold -s", "strash", f"bmc3 -a -F {proof.depth} -T {proof.limit}")
-    clocks = {int(i): clock for i, clock in re.findall(r"Output +(\d+) was asserted in frame +(\d+)", text)}
-    reached = [f"{name} {clocks[i]}" for i, name in enumerate(listed) if i in clocks]
-    return reached, [name for i, name in enumerate(listed) if i not in clocks]
+    reached, missed = [], []
+    for i, name in enumerate(names(folder, stem)):
+        steps = ("&get", f"&cone -O {i}", "&put", f"bmc3 -F {proof.depth} -T {proof.limit}")
+        text = abc(folder, f"read_aiger {stem}.aig", "fold -s", "strash", *steps)
+        found = re.search(r"was asserted in frame (\d+)", text)
+        (reached if found else missed).append(f"{name} {found[1]}" if found else name)
+    return reached, missed
 
 
 # ---- paths ----
@@ -216,14 +218,18 @@ def decide(proof, change, folder):
     if proof.method == "paths":
         graph(proof, texts, folder, "paths", ["SYNTHESIS"], proof.parameters, NETLIST)
         return paths(folder, "paths")
+    if change:  # all lemmas at once
+        last = proof.parameters | ({"Stage": proof.stages - 1} if proof.stages > 1 else {})
+        graph(proof, texts, folder, "proof", ["RDX_FORMAL", "RDX_ALL"], last, ASSERTIONS)
+        return prove(proof, folder, "proof", True)
     seconds, count = 0.0, 0
     for stage in range(proof.stages):
         parameters = proof.parameters | ({"Stage": stage} if proof.stages > 1 else {})
         graph(proof, texts, folder, "proof", ["RDX_FORMAL"], parameters, ASSERTIONS)
-        outcome = prove(proof, folder, "proof", change is not None)
+        outcome = prove(proof, folder, "proof", False)
         seconds += outcome.seconds
         if outcome.verdict not in ("proved", "bounded"):
-            return Outcome(outcome.verdict, outcome.text, seconds)
+            return Outcome(outcome.verdict, f"stage {stage}: {outcome.text}", seconds)
         count += int(outcome.text.split()[0])
     return Outcome(outcome.verdict, f"{count} assertions", seconds)
 
@@ -237,10 +243,15 @@ def covers(proof, folder):
     return reach(proof, folder, "reach")
 
 
-def run(name, say):
+def run(name):
     """One proof with its covers and its broken variants: a dictionary for JSON."""
+
+    def say(part):
+        print(f"formal: {name}: {part} …", file=sys.stderr, flush=True)
+
     proof = PROOFS[name]
-    key = digest(package("pyosys"), YOSYS, PREPARE, ASSERTIONS, NETLIST, Path(__file__).read_text(), repr(proof))
+    code = [inspect.getsource(part) for part in (files, graph, commands, prove, reach, support, paths, decide, covers)]
+    key = digest(package("pyosys"), YOSYS, PREPARE, ASSERTIONS, NETLIST, code, repr(proof))
     key = digest(key, files(proof), included())
     kept = BUILD / f"{name}-{key}.json"
     if kept.exists():
@@ -314,7 +325,7 @@ def main(arguments=None):
     chosen, rows, wrong = options.name or list(PROOFS), [], []
     try:
         for name in chosen:
-            rows.append(result := run(name, lambda part, n=name: print(f"formal: {n}: {part} …", file=sys.stderr)))
+            rows.append(result := run(name))
             wrong += [f"{name}: {fault}" for fault in faults(result)]
     except (SynthError, OSError) as error:
         print(f"formal: {name}: {error}", file=sys.stderr)
