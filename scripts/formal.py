@@ -4,7 +4,7 @@
 
     scripts/formal.py                every proof of the table PROOFS
     scripts/formal.py ring merge     these only; make formal POINT=ring
-    scripts/formal.py --write        renew the table in docs/formal.md, too
+    scripts/formal.py --write        renew the rows in docs/formal.md, too
 
 Each proof is made three times: of the design; of what must be reachable under its assumptions; and of the design broken
 on purpose, which has to be refuted. Results are kept in build/formal by what they depend on. docs/formal.md says what
@@ -275,12 +275,19 @@ def run(name):
     return result
 
 
+def covered(result):
+    """Covers of a proof, reached and missed; the offers of inner streams are wanted only of the proofs of streams."""
+    harness = PROOFS[result["name"]].top.startswith("formal_")
+    wanted = [[n for n in result[k] if not (harness and "_offer" in n)] for k in ("reached", "missed")]
+    return wanted[0], wanted[1]
+
+
 def faults(result):
     """What is not as it should be, in words."""
     wanted = "bounded" if PROOFS[result["name"]].method.startswith("bmc") else "proved"
     if result["verdict"] not in (wanted, "proved"):
         yield f"{result['verdict']}: {result['text']}"
-    for name in result["missed"]:
+    for name in covered(result)[1]:
         yield f"not reached: {name}"
     for broken in result["broken"]:
         if broken["verdict"] != "refuted":
@@ -305,22 +312,27 @@ def texts(result):
     proof = PROOFS[result["name"]]
     of = " ".join([proof.of, *(f"{name}={value}" for name, value in proof.parameters.items())])
     refuted = sum(broken["verdict"] == "refuted" for broken in result["broken"])
-    total = len(result["reached"]) + len(result["missed"])
-    counts = [f"{len(result['reached'])} of {total}" if total else "–", f"{refuted} of {len(result['broken'])} refuted"]
+    reached, missed = covered(result)
+    total = len(reached) + len(missed)
+    counts = [f"{len(reached)} of {total}" if total else "–", f"{refuted} of {len(result['broken'])} refuted"]
     return [result["name"], of, proof.says, method(proof), *counts, f"{result['seconds']:.1f}", result["verdict"]]
+
+
+def written():
+    """Rows of the table in the page, by name."""
+    block = PAGE.read_text().split("BEGIN generated: proofs -->")[1].split("<!-- END")[0]
+    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
+    return {row[0]: row for row in ([cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines)}
 
 
 def main(arguments=None):
     """Prove, print; returns the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"proofs: {', '.join(PROOFS)}")
-    parser.add_argument("--write", action="store_true", help="renew the table in docs/formal.md; of all proofs only")
+    parser.add_argument("--write", action="store_true", help="renew the rows of these proofs in docs/formal.md")
     options = parser.parse_args(arguments)
     if unknown := [name for name in options.name if name not in PROOFS]:
         print(f"formal: found {', '.join(unknown)}; allowed: {', '.join(PROOFS)}", file=sys.stderr)
-        return 2
-    if options.write and options.name:
-        print("formal: --write renews the table of all proofs: no NAME with it", file=sys.stderr)
         return 2
     chosen, rows, wrong = options.name or list(PROOFS), [], []
     try:
@@ -347,7 +359,9 @@ def main(arguments=None):
     for line in wrong:
         print(f"formal: {line}", file=sys.stderr)
     if options.write and not wrong:
-        write_table(PAGE, "proofs", COLUMNS, [[cell.replace("|", "\\|") for cell in texts(row)] for row in rows])
+        cells = {row["name"]: [cell.replace("|", "\\|") for cell in texts(row)] for row in rows}
+        kept = {name: row for name, row in written().items() if name in PROOFS} | cells
+        write_table(PAGE, "proofs", COLUMNS, [kept[name] for name in PROOFS if name in kept])
     return 1 if wrong else 0
 
 
