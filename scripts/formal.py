@@ -4,16 +4,18 @@
 
     scripts/formal.py                every proof of the table PROOFS
     scripts/formal.py ring merge     these only; make formal POINT=ring
-    scripts/formal.py --write        renew the table in docs/formal.md, too
+    scripts/formal.py --write        renew the rows in docs/formal.md, too
 
 Each proof is made three times: of the design; of what must be reachable under its assumptions; and of the design broken
-on purpose, which has to be refuted. Results are kept in build/formal by what they depend on. docs/formal.md says what is
-proved and how.
+on purpose, which has to be refuted. Results are kept in build/formal by what they depend on. docs/formal.md says what
+is proved and how.
 
-Exit status 0: everything as it should be; 1: something was not proved, reached or refuted; 2: bad input, or a tool failed.
+Exit status 0: everything as it should be; 1: something was not proved, reached or refuted; 2: bad input or a failed
+tool.
 """
 
 import argparse
+import inspect
 import json
 import re
 import subprocess
@@ -24,13 +26,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pyosys
-from formal_proofs import PROOFS
 from rich.console import Console
 from rich.table import Table
-from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
+from formal_proofs import PROOFS
 from raydix.blocks import write_table
 from raydix.rtl import RTL, sources
+from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
 HARNESSES = ROOT / "tb" / "formal"
 BUILD = ROOT / "build" / "formal"
@@ -57,7 +59,7 @@ NETLIST = ["write_aiger -ascii -symbols {stem}.aag"]
 
 @dataclass
 class Outcome:
-    """What came out of one run: verdict is one of proved, bounded, refuted, open; text names what failed or was reached."""
+    """What came out of one run: verdict is proved, bounded, refuted or open; text names what failed."""
 
     verdict: str
     text: str
@@ -116,7 +118,7 @@ def graph(proof, texts, folder, stem, defines, parameters, write):
 def abc(folder, *commands):
     """Output of ABC."""
     run = subprocess.run([ABC, "-q", "; ".join(commands)], cwd=folder, capture_output=True, text=True)
-    if run.returncode or "Error:" in run.stdout:
+    if "Error:" in run.stdout or run.returncode:
         lines = [line for line in (run.stdout + run.stderr).splitlines() if line.strip()]
         raise SynthError(f"ABC failed: {next((line for line in lines if 'Error' in line), lines[-1:])}")
     return run.stdout
@@ -160,13 +162,13 @@ def prove(proof, folder, stem, broken):
 
 def reach(proof, folder, stem):
     """See that each cover can be reached: (reached, missed), names with their clocks."""
-    listed = names(folder, stem)
-    if not listed:
-        return [], []
-    text = abc(folder, f"read_aiger {stem}.aig", "fold -s", "strash", f"bmc3 -a -F {proof.depth} -T {proof.limit}")
-    clocks = {int(i): clock for i, clock in re.findall(r"Output +(\d+) was asserted in frame +(\d+)", text)}
-    reached = [f"{name} {clocks[i]}" for i, name in enumerate(listed) if i in clocks]
-    return reached, [name for i, name in enumerate(listed) if i not in clocks]
+    reached, missed = [], []
+    for i, name in enumerate(names(folder, stem)):
+        steps = ("&get", f"&cone -O {i}", "&put", f"bmc3 -F {proof.depth} -T {proof.limit}")
+        text = abc(folder, f"read_aiger {stem}.aig", "fold -s", "strash", *steps)
+        found = re.search(r"was asserted in frame (\d+)", text)
+        (reached if found else missed).append(f"{name} {found[1]}" if found else name)
+    return reached, missed
 
 
 # ---- paths ----
@@ -216,14 +218,18 @@ def decide(proof, change, folder):
     if proof.method == "paths":
         graph(proof, texts, folder, "paths", ["SYNTHESIS"], proof.parameters, NETLIST)
         return paths(folder, "paths")
+    if change:  # all lemmas at once
+        last = proof.parameters | ({"Stage": proof.stages - 1} if proof.stages > 1 else {})
+        graph(proof, texts, folder, "proof", ["RDX_FORMAL", "RDX_ALL"], last, ASSERTIONS)
+        return prove(proof, folder, "proof", True)
     seconds, count = 0.0, 0
     for stage in range(proof.stages):
         parameters = proof.parameters | ({"Stage": stage} if proof.stages > 1 else {})
         graph(proof, texts, folder, "proof", ["RDX_FORMAL"], parameters, ASSERTIONS)
-        outcome = prove(proof, folder, "proof", change is not None)
+        outcome = prove(proof, folder, "proof", False)
         seconds += outcome.seconds
         if outcome.verdict not in ("proved", "bounded"):
-            return Outcome(outcome.verdict, outcome.text, seconds)
+            return Outcome(outcome.verdict, f"stage {stage}: {outcome.text}", seconds)
         count += int(outcome.text.split()[0])
     return Outcome(outcome.verdict, f"{count} assertions", seconds)
 
@@ -237,10 +243,15 @@ def covers(proof, folder):
     return reach(proof, folder, "reach")
 
 
-def run(name, say):
+def run(name):
     """One proof with its covers and its broken variants: a dictionary for JSON."""
+
+    def say(part):
+        print(f"formal: {name}: {part} …", file=sys.stderr, flush=True)
+
     proof = PROOFS[name]
-    key = digest(package("pyosys"), YOSYS, PREPARE, ASSERTIONS, NETLIST, Path(__file__).read_text(), repr(proof))
+    code = [inspect.getsource(part) for part in (files, graph, commands, prove, reach, support, paths, decide, covers)]
+    key = digest(package("pyosys"), YOSYS, PREPARE, ASSERTIONS, NETLIST, code, repr(proof))
     key = digest(key, files(proof), included())
     kept = BUILD / f"{name}-{key}.json"
     if kept.exists():
@@ -264,12 +275,19 @@ def run(name, say):
     return result
 
 
+def covered(result):
+    """Covers of a proof, reached and missed; the offers of inner streams are wanted only of the proofs of streams."""
+    harness = PROOFS[result["name"]].top.startswith("formal_")
+    wanted = [[n for n in result[k] if not (harness and "_offer" in n)] for k in ("reached", "missed")]
+    return wanted[0], wanted[1]
+
+
 def faults(result):
     """What is not as it should be, in words."""
     wanted = "bounded" if PROOFS[result["name"]].method.startswith("bmc") else "proved"
     if result["verdict"] not in (wanted, "proved"):
         yield f"{result['verdict']}: {result['text']}"
-    for name in result["missed"]:
+    for name in covered(result)[1]:
         yield f"not reached: {name}"
     for broken in result["broken"]:
         if broken["verdict"] != "refuted":
@@ -294,27 +312,32 @@ def texts(result):
     proof = PROOFS[result["name"]]
     of = " ".join([proof.of, *(f"{name}={value}" for name, value in proof.parameters.items())])
     refuted = sum(broken["verdict"] == "refuted" for broken in result["broken"])
-    total = len(result["reached"]) + len(result["missed"])
-    counts = [f"{len(result['reached'])} of {total}" if total else "–", f"{refuted} of {len(result['broken'])} refuted"]
+    reached, missed = covered(result)
+    total = len(reached) + len(missed)
+    counts = [f"{len(reached)} of {total}" if total else "–", f"{refuted} of {len(result['broken'])} refuted"]
     return [result["name"], of, proof.says, method(proof), *counts, f"{result['seconds']:.1f}", result["verdict"]]
+
+
+def written():
+    """Rows of the table in the page, by name."""
+    block = PAGE.read_text().split("BEGIN generated: proofs -->")[1].split("<!-- END")[0]
+    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
+    return {row[0]: row for row in ([cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines)}
 
 
 def main(arguments=None):
     """Prove, print; returns the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"proofs: {', '.join(PROOFS)}")
-    parser.add_argument("--write", action="store_true", help="renew the table in docs/formal.md; of all proofs only")
+    parser.add_argument("--write", action="store_true", help="renew the rows of these proofs in docs/formal.md")
     options = parser.parse_args(arguments)
     if unknown := [name for name in options.name if name not in PROOFS]:
         print(f"formal: found {', '.join(unknown)}; allowed: {', '.join(PROOFS)}", file=sys.stderr)
         return 2
-    if options.write and options.name:
-        print("formal: --write renews the table of all proofs: no NAME with it", file=sys.stderr)
-        return 2
     chosen, rows, wrong = options.name or list(PROOFS), [], []
     try:
         for name in chosen:
-            rows.append(result := run(name, lambda part, n=name: print(f"formal: {n}: {part} …", file=sys.stderr)))
+            rows.append(result := run(name))
             wrong += [f"{name}: {fault}" for fault in faults(result)]
     except (SynthError, OSError) as error:
         print(f"formal: {name}: {error}", file=sys.stderr)
@@ -336,7 +359,9 @@ def main(arguments=None):
     for line in wrong:
         print(f"formal: {line}", file=sys.stderr)
     if options.write and not wrong:
-        write_table(PAGE, "proofs", COLUMNS, [[cell.replace("|", "\\|") for cell in texts(row)] for row in rows])
+        cells = {row["name"]: [cell.replace("|", "\\|") for cell in texts(row)] for row in rows}
+        kept = {name: row for name, row in written().items() if name in PROOFS} | cells
+        write_table(PAGE, "proofs", COLUMNS, [kept[name] for name in PROOFS if name in kept])
     return 1 if wrong else 0
 
 

@@ -90,21 +90,28 @@ def ring(parameters, always, **rest):
     says = "one last record for each ray taken, none without a ray; first segments and places are the ray's own"
     broken = (
         ("rdx_slots", "memory[enter_q] <= first_i", "memory[leave_q] <= first_i"),
-        ("rdx_ring", "record.last ? Idle : Again", "record.last ? Idle : back.status"),
         (
             "rdx_ring",
             "leave_q.status == Idle && enter;",
             "(leave_q.status == Idle || leave_q.status == Again) && enter;",
         ),
-        ("rdx_ring", "back.pending && !(&back.steps)", "back.pending"),
+        ("rdx_ring", "record.last ? Idle : Again", "record.last ? Idle : back.status"),
+        ("rdx_ring", "back.roots > 1 &&", "back.roots > 0 &&"),
     )
     if always:
         says = "the last record of a ray comes in time where every record is taken at once"
         broken = (
-            ("rdx_ring", "else if (leave_q.status == Again) begin", "else if (leave_q.status == Again && take) begin"),
+            (
+                "rdx_ring",
+                "end else if (leave_q.status == Again) begin",
+                "end else if (leave_q.status == Again && take) begin",
+            ),
         )
     values = parameters | {"Always": always}
-    return Proof("formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), depth=60, **rest)
+    short = ("rdx_pkg", "int unsigned StepsWidth = 12;", "int unsigned StepsWidth = 2;")
+    return Proof(
+        "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short,), stages=3, depth=45, **rest
+    )
 
 
 def stream(top, parameters, *broken, method="induction 2", **rest):
@@ -113,9 +120,43 @@ def stream(top, parameters, *broken, method="induction 2", **rest):
     return Proof(top, top, says, parameters, method, broken, **rest)
 
 
+def paths(top, parameters, *broken, **rest):
+    """No way from ready to valid."""
+    says = "no path without a register from a ready input to a valid output"
+    return Proof(top, top, says, parameters, "paths", broken, **rest)
+
+
 SMALL = {"N1": 1, "K": 2, "W": 16, "D": 2, "U": 1, "Rules": 1, "HalveStages": 0}
 OUTPUT = ("rdx_register", "else if (ready_o) valid_o <= valid_i;", "else valid_o <= valid_i;")
-HELD = ("rdx_product", "wire en = !valid_q[Latency-1] || ray_ready_i;", "wire en = 1'b1;")
+THROUGH = (
+    "rdx_register",
+    "  always_ff @(posedge clk_i) begin\n"
+    "    if (!rst_ni) valid_o <= 1'b0;\n    else if (ready_o) valid_o <= valid_i;\n",
+    "  logic held_q;\n  assign valid_o = held_q && ready_i;\n"
+    "  always_ff @(posedge clk_i) begin\n    if (!rst_ni) held_q <= 1'b0;\n    else if (ready_o) held_q <= valid_i;\n",
+)
+THROUGH_MERGE = ("rdx_merge", "valid_o = |valid_i;", "valid_o = |(valid_i & ready_o);")
+CORE = SMALL | {"Vecsum": 2, "Lanes": 1}
+VECTOR = {"N1": 1, "K": 2, "Rules": 1, "Lanes": 1}
+STAND_INS = ("rdx_step", "rdx_vecsum", "rdx_quartic")
+# an evaluator of few clocks, so that the ring of vector sums is short
+SHORT = (
+    "rdx_pkg",
+    "VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 6;",
+    "VecsumLatency = 2;",
+)
+
+
+def held(module):
+    """All stages of a module advance, whether the last was taken or not."""
+    return (module, "wire en = !valid_q[Latency-1] || ray_ready_i;", "wire en = 1'b1;")
+
+
+def through(module):
+    """A module offers what it has only where it is asked."""
+    return (module, "ray_valid_o = valid_q[Latency-1];", "ray_valid_o = valid_q[Latency-1] && ray_ready_i;")
+
+
 WALK = ("rdx_raster", "wire step = ray_valid_o && ray_ready_i;", "wire step = ray_valid_o;")
 
 PROOFS = {
@@ -150,30 +191,43 @@ PROOFS = {
         "formal_bound",
         "rdx_bound",
         "a cell of one sign is excluded exactly where a bound excludes it",
-        {"N1": 3},
-        "induction 6",
+        {"N1": 1},
+        "induction 5",
         (
             ("rdx_bound", "up = bound + 1'b1;", "up = bound;"),
             ("rdx_bound", "(7'(level) + 7'd1) * digits", "7'(level) * digits"),
             ("rdx_bound", "(bend_q >> 2)", "(bend_q >> 3)"),
         ),
+        stages=2,
+        depth=6,
     ),
     "slots": slots(6, 1),
     "slots-phases": slots(5, 3),
-    "stream-register": stream(
-        "rdx_register", {"W": 32}, ("if (ready_o && valid_i) data_o", "if (valid_i) data_o"), method="pdr"
+    "paths-core": paths("rdx_core", CORE, THROUGH_MERGE, stand_ins=STAND_INS, replace=(SHORT,)),
+    "paths-algebraic": paths("rdx_algebraic", SMALL, THROUGH, stand_ins=("rdx_step",)),
+    "paths-vector": paths("rdx_vector", VECTOR, THROUGH, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,)),
+    "paths-ring": paths("rdx_ring", SMALL, THROUGH, stand_ins=("rdx_step",)),
+    "paths-product": paths("rdx_product", {"D": 2}, through("rdx_product")),
+    "paths-raster": paths(
+        "rdx_raster", {"D": 2, "Vector": 1}, ("rdx_raster", "state_q == Walk;", "state_q == Walk && ray_ready_i;")
     ),
-    "stream-product": stream("rdx_product", {"D": 2}, HELD),
-    "stream-product-d4": stream("rdx_product", {"D": 4}, HELD, stand_ins=("rdx_quartic",)),
-    "stream-raster": stream("rdx_raster", {"D": 0, "Vector": 1}, WALK, depth=90),
-    "stream-raster-d4": stream("rdx_raster", {"D": 4, "Vector": 1}, depth=90),
-    "stream-ends": stream("rdx_ends", {"Lanes": 1}, stand_ins=("rdx_vecsum",), depth=100),
+    "paths-ends": paths("rdx_ends", {"Lanes": 1}, through("rdx_ends"), stand_ins=("rdx_vecsum",), replace=(SHORT,)),
+    "paths-merge": paths("rdx_merge", {}, THROUGH_MERGE),
+    "paths-register": paths("rdx_register", {}, THROUGH),
+    "stream-register": stream(
+        "rdx_register", {"W": 32}, ("rdx_register", "if (ready_o && valid_i) data_o", "if (valid_i) data_o")
+    ),
+    "stream-product": stream("rdx_product", {"D": 2}, held("rdx_product")),
+    "stream-product-d4": stream("rdx_product", {"D": 4}, held("rdx_product"), stand_ins=("rdx_quartic",)),
+    "stream-raster": stream("rdx_raster", {"D": 2, "Vector": 1}, WALK, depth=50),
+    "stream-raster-d4": stream("rdx_raster", {"D": 4, "Vector": 1}, WALK, depth=50),
+    "stream-ends": stream("rdx_ends", {"Lanes": 1}, held("rdx_ends"), stand_ins=("rdx_vecsum",), replace=(SHORT,)),
     "stream-ring": stream("rdx_ring", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
     "stream-algebraic": stream("rdx_algebraic", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
-    "stream-vector": stream("rdx_vector", {"N1": 1, "K": 2, "Lanes": 1}, stand_ins=("rdx_step", "rdx_vecsum")),
-    "stream-core": stream(
-        "rdx_core", SMALL | {"Vecsum": 2, "Lanes": 1}, stand_ins=("rdx_step", "rdx_vecsum", "rdx_quartic")
+    "stream-vector": stream(
+        "rdx_vector", VECTOR, OUTPUT, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,), depth=50
     ),
+    "stream-core": stream("rdx_core", CORE, OUTPUT, stand_ins=STAND_INS, replace=(SHORT,), depth=70),
     "ring": ring({"U": 1}, 0),
     "ring-time": ring({"U": 1}, 1),
     "merge": Proof(

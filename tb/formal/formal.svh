@@ -19,13 +19,18 @@
 `endif
 
 // A step on the way to a CHECK: proved at its Stage, given from then on. The module has the parameter Stage, and the driver
-// proves the stages in their order.
+// proves the stages in their order. With RDX_ALL, where a counterexample is looked for, all are checked at once.
+`ifdef RDX_ALL
+`define LEMMA(stage, name, condition) \
+  `CHECK(name, condition)
+`else
 `define LEMMA(stage, name, condition) \
   if (Stage == stage) begin : gen_prove_``name \
     `CHECK(name, condition) \
   end else if (Stage > stage) begin : gen_given_``name \
     `GIVEN(name, condition) \
   end
+`endif
 
 // The first clock is one of reset; what no reset sets is arbitrary then.
 `define RESET_FIRST \

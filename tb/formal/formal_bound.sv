@@ -6,6 +6,7 @@
 
 module formal_bound #(
     parameter int unsigned N1 = 3,
+    parameter int unsigned Stage = 1,
     localparam int unsigned J = 1 << N1,
     localparam int unsigned Z = $clog2(rdx_pkg::Zones)
 ) (
@@ -29,15 +30,17 @@ module formal_bound #(
       .possible_o(possible)
   );
 
-  localparam type number_t = logic [63:0];
+  localparam type number_t = logic [57:0];
   `GIVEN(g_level, 32'(level_i) < 32 / N1)
+
+  logic [2:0] clocks = '0;
 
   // ---- the bounds of the cell, rounded up, two clocks before the values ----
   number_t change, curvature, change_q, curvature_q;
   logic curved, curved_q;
   wire [5:0] digits = 6'(N1) * (6'(level_i) + 6'd1);  // the cell is 2^-digits of the segment
-  assign change = (number_t'(form_i.lipschitz[zone_i]) >> digits) + 64'd1;
-  assign curvature = (number_t'(form_i.curvature[zone_i]) >> digits >> digits) + 64'd1;
+  assign change = (number_t'(form_i.lipschitz[zone_i]) >> digits) + 58'd1;
+  assign curvature = (number_t'(form_i.curvature[zone_i]) >> (7'(digits) * 7'd2)) + 58'd1;
   assign curved = 6'(level_i) >= form_i.from_level[zone_i];
   number_t change_d, curvature_d;
   logic curved_d;
@@ -46,32 +49,38 @@ module formal_bound #(
     {change_q, curvature_q, curved_q} <= {change_d, curvature_d, curved_d};
   end
 
+  // the module keeps them in 39 bits, the largest of which no sum of two magnitudes exceeds
+  localparam number_t Most = number_t'({VectorWidth + 1{1'b1}});
+  `LEMMA(0, p_change, clocks < 3'd2 || number_t'(u_bound.most_q) == (change_q > Most ? Most : change_q))
+  `LEMMA(0, p_curvature, clocks < 3'd2 || number_t'(u_bound.bend_q) == (curvature_q > Most ? Most : curvature_q))
+  `LEMMA(0, p_curved, clocks < 3'd2 || u_bound.curved_q == curved_q)
+
   logic [J-1:0] wanted, wanted_d, wanted_q, one_sign, one_sign_d, one_sign_q;
   for (genvar j = 0; j < J; j++) begin : gen_cell
     number_t left, right, sum;
     logic none;
     always_comb begin
-      left = 64'(values_i[j]);
-      right = 64'(values_i[j+1]);
+      left  = 58'(values_i[j]);
+      right = 58'(values_i[j+1]);
       if (values_i[j] < 0) left = -left;
       if (values_i[j+1] < 0) right = -right;
       sum  = left + right;
       none = sum > change_q;
-      if (curved_q && values_i[j] > 0) none = none || sum > curvature_q || (4 * left > curvature_q && 4 * right > curvature_q);
+      if (curved_q && values_i[j] > 0)
+        none = none || sum > curvature_q || (4 * left > curvature_q && 4 * right > curvature_q);
     end
-    assign wanted[j] = !none;
+    assign wanted[j]   = !none;
     assign one_sign[j] = (values_i[j] > 0) == (values_i[j+1] > 0);
   end
   for (genvar j = 0; j <= J; j++) begin : gen_boundary
     `GIVEN(g_value, values_i[j] != vector_t'({1'b1, {VectorWidth - 1{1'b0}}}))
   end
-  logic [2:0] clocks = '0;
   always_ff @(posedge clk_i) begin
     {wanted_d, wanted_q} <= {wanted, wanted_d};
     {one_sign_d, one_sign_q} <= {one_sign, one_sign_d};
     if (clocks != 3'd4) clocks <= clocks + 1'b1;
   end
-  `CHECK(p_possible, clocks != 3'd4 || ((possible ^ wanted_q) & one_sign_q) == '0)
+  `LEMMA(1, p_possible, clocks != 3'd4 || ((possible ^ wanted_q) & one_sign_q) == '0)
   `REACH(r_both, clocks == 3'd4 && one_sign_q == '1 && wanted_q != '0 && wanted_q != '1)
 
 endmodule

@@ -52,7 +52,8 @@ module formal_halve #(
   `CHECK(p_half_up, twice == sum || twice == sum + (W + 1)'(1))
 
   `REACH(r_tight, low == high)
-  `REACH(r_whole, low == {1'b1, {(W - 1) {1'b0}}} && high == {1'b0, {(W - 1) {1'b1}}} && b_i[0] == low && b_i[D] == high)
+  `REACH(r_whole,
+         low == {1'b1, {(W - 1) {1'b0}}} && high == {1'b0, {(W - 1) {1'b1}}} && b_i[0] == low && b_i[D] == high)
 
 endmodule
 

@@ -6,11 +6,11 @@
 module formal_merge #(
     parameter int unsigned W = 4
 ) (
-    input wire logic               clk_i,
-    input wire logic               rst_ni,
-    input wire logic [1:0]         valid_i,
-    input wire logic [1:0][W-1:0]  data_i,
-    input wire logic               ready_i
+    input wire logic              clk_i,
+    input wire logic              rst_ni,
+    input wire logic [1:0]        valid_i,
+    input wire logic [1:0][W-1:0] data_i,
+    input wire logic              ready_i
 );
 
   logic [1:0] ready;

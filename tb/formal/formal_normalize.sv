@@ -4,11 +4,11 @@
 `include "formal.svh"
 
 module formal_normalize #(
-    parameter int unsigned WIn = 36,
-    parameter int unsigned WOut = 36,
-    parameter int unsigned Count = 5,
-    parameter int unsigned Limit = 7,
-    localparam int unsigned Bits = $clog2(Limit + 1)
+    parameter  int unsigned WIn   = 36,
+    parameter  int unsigned WOut  = 36,
+    parameter  int unsigned Count = 5,
+    parameter  int unsigned Limit = 7,
+    localparam int unsigned Bits  = $clog2(Limit + 1)
 ) (
     input wire logic                  clk_i,
     input wire logic                  en_i,
@@ -17,8 +17,8 @@ module formal_normalize #(
 
   logic signed [WOut-1:0] values[Count];
   rdx_normalize #(
-      .WIn(WIn),
-      .WOut(WOut),
+      .WIn  (WIn),
+      .WOut (WOut),
       .Count(Count),
       .Limit(Limit)
   ) u_normalize (

@@ -7,10 +7,10 @@ module formal_outside #(
     parameter int unsigned J = 8,
     parameter bit Faces = 1'b0
 ) (
-    input wire rdx_pkg::coord_t         boundaries_i[3][J+1],
-    input wire rdx_pkg::box_t   [  2:0] box_i,
-    input wire rdx_pkg::coord_t [  2:0] low_i,
-    input wire rdx_pkg::coord_t [  2:0] high_i
+    input wire rdx_pkg::coord_t       boundaries_i[3][J+1],
+    input wire rdx_pkg::box_t   [2:0] box_i,
+    input wire rdx_pkg::coord_t [2:0] low_i,
+    input wire rdx_pkg::coord_t [2:0] high_i
 );
   import rdx_pkg::*;
 
@@ -34,7 +34,7 @@ module formal_outside #(
       wide_t half;
       half = wide_t'(1) <<< (CoordWidth - 1 - 32'(box_i[axis]));
       least[axis] = Faces ? wide_t'(signed'(low_i[axis])) : -half;
-      most[axis]  = Faces ? wide_t'(signed'(high_i[axis])) : half - wide_t'(1);
+      most[axis] = Faces ? wide_t'(signed'(high_i[axis])) : half - wide_t'(1);
     end
   end
   for (genvar axis = 0; axis < 3; axis++) begin : gen_axis

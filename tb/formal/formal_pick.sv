@@ -45,7 +45,7 @@ module formal_pick #(
   end
 
   // the digits of the level, as places of a number: the level's lowest has the weight 2^(N1*(K-1-level))
-  wire [9:0] shift = 10'(N1) * (10'(K - 1) - 10'(control_i.level));
+  wire [  9:0] shift = 10'(N1) * (10'(K - 1) - 10'(control_i.level));
   wire [N-1:0] hole = ~(N'((1 << N1) - 1) << shift);
   wire [N-1:0] picked = (control_i.t & hole) | (N'(pick_i) << shift);
   wire [N-1:0] second = (control_i.t & hole) | (N'(next_i) << shift);

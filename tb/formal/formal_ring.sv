@@ -15,7 +15,8 @@ module formal_ring #(
     parameter int unsigned D = 2,
     parameter int unsigned U = 1,
     parameter int unsigned Lanes = 1,
-    parameter bit Always = 1'b0,       // the output is always ready
+    parameter bit Always = 1'b0,  // the output is always ready
+    parameter int unsigned Stage = 2,
     localparam type control_t = `RDX_CONTROL_T(N1 * K),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
@@ -33,7 +34,7 @@ module formal_ring #(
   localparam int unsigned Phases = D == 1 ? phases((1 << N1) - 1, Lanes) : 1;
   localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
   localparam int unsigned Slots = (U * Latency + 2 + Phases - 1) / Phases;
-  localparam int unsigned MostSteps = 3;  // of the units that stand in
+  localparam int unsigned MostSteps = (1 << StepsWidth) - 1;
 
   logic ray_ready, hit_valid;
   hit_t hit;
@@ -91,9 +92,9 @@ module formal_ring #(
   end
   wire handed = hit_valid && hit.x[0] && hit.last;
   wire running = rst_ni && u_ring.filled;
-  `CHECK(p_kept, !running || flying == (here != '0 || handed))
-  `CHECK(p_once, !running || (here & (here - 1'b1)) == '0)
-  `CHECK(p_left, !running || !handed || here == '0)
+  `LEMMA(1, p_kept, !running || flying == (here != '0 || handed))
+  `LEMMA(1, p_once, !running || (here & (here - 1'b1)) == '0)
+  `LEMMA(1, p_left, !running || !handed || here == '0)
 
   // ---- records of one ray: a step at least for each, and not more than roots were wanted ----
   steps_t steps_q = '0;
@@ -103,24 +104,27 @@ module formal_ring #(
     else if (give && hit.x[0]) roots_q <= roots_q - 1'b1;
     if (give && hit.x[0]) steps_q <= hit.steps;
   end
-  `CHECK(p_steps, !(give && hit.x[0]) || hit.steps > steps_q)
-  `CHECK(p_roots, !(give && hit.x[0]) || roots_q != '0)
+  if (!Always) begin : gen_records
+    `LEMMA(2, p_steps, !(give && hit.x[0]) || hit.steps > steps_q)
+    `LEMMA(2, p_roots, !(give && hit.x[0]) || roots_q != '0)
+  end
 
   // ---- what the mark shows ----
-  `CHECK(p_ours, !(give && hit.x[0]) || flying)  // no record without a ray, and none behind the last
+  `LEMMA(1, p_ours, !(give && hit.x[0]) || flying)  // no record without a ray, and none behind the last
   if (Always) begin : gen_time
     // each step a turn of the ring, a turn to the wrap, and the output's register
-    `CHECK(p_time, !flying || age_q <= 7'((MostSteps + 1) * Slots * Phases + 3))
+    `LEMMA(2, p_time, !flying || age_q <= 7'((MostSteps + 1) * Slots * Phases + 3))
     `REACH(r_time, flying && age_q >= 7'((MostSteps - 1) * Slots * Phases))
   end else begin : gen_held
     `REACH(r_held, flying && age_q == 7'((MostSteps + 2) * Slots * Phases))
   end
 
   // the record is of the item that leaves, and its memory is the ray's
-  `CHECK(p_memory, !(u_ring.give && rst_ni) || u_ring.first.x[0] == u_ring.back.box[0][0])
+  `LEMMA(0, p_memory, !(u_ring.give && rst_ni) || u_ring.first.x[0] == u_ring.back.box[0][0])
   // what begins a descent has its ray's own segment
   wire begins = u_ring.enter_q.status == Run && u_ring.enter_q.level == '0;
-  `CHECK(p_segment, !(rst_ni && u_ring.filled && begins) || u_ring.enter_segment_q.ends.start[0][0] == u_ring.enter_q.box[0][0])
+  `LEMMA(0, p_segment,
+         !(rst_ni && u_ring.filled && begins) || u_ring.enter_segment_q.ends.start[0][0] == u_ring.enter_q.box[0][0])
   `REACH(r_restart, rst_ni && u_ring.filled && begins && u_ring.enter_q.steps != '0 && u_ring.enter_q.box[0][0])
   `REACH(r_last, give && hit.x[0] && hit.last && hit.hit)
   `REACH(r_more, give && hit.x[0] && !hit.last)

@@ -35,9 +35,9 @@ module formal_select #(
       .last_i,
       .paper_i,
       .found_o(found),
-      .more_o(more),
-      .pick_o(pick),
-      .next_o(next)
+      .more_o (more),
+      .pick_o (pick),
+      .next_o (next)
   );
 
   // ---- Case 1: the boundary of least magnitude, the first of equals; of the two cells beside it the one of the smaller
@@ -100,9 +100,9 @@ module formal_select #(
     set[0] <= candidates;
     for (int i = 1; i < Latency; i++) set[i] <= set[i-1];
   end
-  wire [J-1:0] wanted = set[Latency-1];
-  wire [J-1:0] without = wanted & ~(J'(1) << pick);
-  logic [3:0] clocks = '0;  // until the registers hold what came in
+  wire  [J-1:0] wanted = set[Latency-1];
+  wire  [J-1:0] without = wanted & ~(J'(1) << pick);
+  logic [  3:0] clocks = '0;  // until the registers hold what came in
   always_ff @(posedge clk_i) if (clocks != 4'(Latency)) clocks <= clocks + 1'b1;
   wire full = clocks == 4'(Latency);
 

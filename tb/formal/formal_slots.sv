@@ -19,7 +19,7 @@ module formal_slots #(
 
   localparam int unsigned Turn = Slots * Phases;
   logic [W-1:0] first;
-  logic [3:0] phase;
+  logic [  3:0] phase;
   logic enter, filled;
   rdx_slots #(
       .Slots(Slots),
@@ -30,9 +30,9 @@ module formal_slots #(
       .rst_ni,
       .take_i,
       .first_i,
-      .first_o(first),
-      .enter_o(enter),
-      .phase_o(phase),
+      .first_o (first),
+      .enter_o (enter),
+      .phase_o (phase),
       .filled_o(filled)
   );
 

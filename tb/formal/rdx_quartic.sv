@@ -6,8 +6,8 @@ module rdx_quartic (
     input  wire logic           clk_i,
     input  wire logic           en_i,
     input  wire logic           quartic_i,
-    input  wire rdx_pkg::quad_t quads_i[9],
-    output rdx_pkg::quad_t      form_o [5]
+    input  wire rdx_pkg::quad_t quads_i  [9],
+    output rdx_pkg::quad_t      form_o   [5]
 );
 
   rdx_pkg::quad_t any[5];  // anything: the driver leaves what nothing drives free

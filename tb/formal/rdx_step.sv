@@ -2,8 +2,7 @@
 // Stands in for rdx_step where the ring is proved: same ports and latency, any result that keeps the contract of its header.
 //
 // A Run item comes back as Run with the next level, or Again where a cell is pending, Hit (after the last digit) or Done.
-// Others pass unchanged. A step counts StepSize, so the limit of the number of steps is met soon. Control points and ends
-// become anything; those of an item that begins a descent must be the ray's own, which the mark shows.
+// Others pass unchanged. Control points and ends become anything; here only the bit that formal_ring.sv marks.
 `default_nettype none
 `include "formal.svh"
 `include "rdx_types.svh"
@@ -33,7 +32,6 @@ module rdx_step #(
   import rdx_pkg::*;
 
   localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
-  localparam steps_t StepSize = 12'd1365;  // a third of the limit
 
   // anything: the driver leaves what nothing drives free
   logic root, dead, found, scrambled;
@@ -43,7 +41,7 @@ module rdx_step #(
     control_d = control_i;
     segment_d = segment_i;
     if (control_i.status == Run) begin
-      control_d.steps = control_i.steps + StepSize;
+      control_d.steps = control_i.steps + 1'b1;
       control_d.pending = control_i.pending || found;
       segment_d.ends.start[0][0] = scrambled;
       if (!dead && control_i.level != 5'(K - 1)) control_d.level = control_i.level + 1'b1;

@@ -5,12 +5,12 @@
 module rdx_vecsum #(
     parameter bit General = 1'b0
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire logic             en_i,
-    input  wire rdx_pkg::form_t   form_i,
-    input  wire rdx_pkg::coord_t  point_i[3],
-    output rdx_pkg::vector_t      value_o
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire logic            en_i,
+    input  wire rdx_pkg::form_t  form_i,
+    input  wire rdx_pkg::coord_t point_i[3],
+    output rdx_pkg::vector_t     value_o
 );
 
   rdx_pkg::vector_t any;  // anything: the driver leaves what nothing drives free
