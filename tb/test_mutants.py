@@ -179,4 +179,3 @@ def test_list_of_equivalents():
         assert entry["code"] in lines, f"rdx_{entry['module']} has no line {entry['code']}"
         assert " -> " in entry["change"] and len(entry["reason"]) > 20
         assert entry.keys() <= {"module", "code", "change", "nth", "reason"}
-    assert bench.ROOT == ROOT
