@@ -8,7 +8,7 @@ import pytest
 
 from raydix.rtl import ROOT, RTL
 
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.append(str(ROOT / "scripts"))  # behind tb/, which has modules of the same names
 from mutants import main as mutants_main  # noqa: E402  (scripts/ is not installed)
 from mutation import campaign, schema, sites  # noqa: E402
 

@@ -51,8 +51,9 @@ def digest(name, *more):
 
 
 def size(parameters):
-    """Guess of what a run with these parameters costs, to begin with the smallest."""
-    return math.prod(max(1, abs(v)) for v in parameters.values())
+    """Guess of what a run with these parameters costs. Vector sums have large evaluators."""
+    vector = parameters.get("D") == 1 and "Lanes" in parameters
+    return math.prod(max(1, abs(v)) for v in parameters.values()) * (1000 if vector else 1)
 
 
 def calls(name):
@@ -60,7 +61,7 @@ def calls(name):
     with tempfile.TemporaryDirectory() as folder:
         noted = Path(folder, "calls")
         noted.touch()
-        paths = os.pathsep.join([str(ROOT / "scripts"), str(ROOT / "tb"), os.environ.get("PYTHONPATH", "")])
+        paths = os.pathsep.join([str(ROOT / "tb"), str(ROOT / "scripts"), os.environ.get("PYTHONPATH", "")])
         command = [sys.executable, "-m", "pytest", "-q", "-p", "mutation.record", "-p", "no:cacheprovider", "-n", "0"]
         run = subprocess.run(
             [*command, str(ROOT / "tb" / f"test_{name}.py")],
@@ -159,7 +160,7 @@ def simulate(call, file, text, numbers, jobs, log, each):
         order = dict(mutants=[0, *numbers], module=call.module, jobs=jobs, factor=LIMIT)
         order |= dict(results=str(lines), space=folder)
         spec.write_text(json.dumps([order, call, str(changed)]))
-        paths = os.pathsep.join([str(ROOT / "scripts"), str(ROOT / "tb"), os.environ.get("PYTHONPATH", "")])
+        paths = os.pathsep.join([str(ROOT / "tb"), str(ROOT / "scripts"), os.environ.get("PYTHONPATH", "")])
         settings = {**os.environ, "SEED": SEED, "WAVES": "", "PYTHONPATH": paths}
         command = [sys.executable, "-m", "mutation.simulate", str(spec)]
         with log.open("w") as out:
@@ -173,7 +174,8 @@ def simulate(call, file, text, numbers, jobs, log, each):
                     if fields["mutant"]:
                         each(fields)
                     elif fields["outcome"] != "survived":
-                        raise Broken(f"{call.toplevel} {label(call)} fails without a mutant:\n{fields['log']}")
+                        why = f"{fields['outcome']} {fields['detail']}\n{fields['log']}"
+                        raise Broken(f"{call.toplevel} {label(call)} fails without a mutant: {why}")
                 if ended:
                     break
                 with contextlib.suppress(subprocess.TimeoutExpired):
@@ -216,8 +218,8 @@ def verdict(lines):
 def campaign(name, wanted, tests, runs, results, equal, jobs, progress):
     """Run the ``wanted`` mutants, a set of parameters after the other, until each is killed or has survived all.
 
-    First comes the set that can run most of what is left, of those the smallest. Nothing is built only for mutants of
-    ``equal`` (numbers), which are listed as equivalent; they run where others do.
+    First comes the smallest of those sets that can run nearly as much of what is left as any. Nothing is built only
+    for mutants of ``equal`` (numbers), which are listed as equivalent; they run where others do.
     progress   called with the set's name and with the line of the result, None before it is built
     Returns {mutant: (outcome, detail, label)}. Raises :class:`Broken`.
     """
@@ -228,7 +230,8 @@ def campaign(name, wanted, tests, runs, results, equal, jobs, progress):
         known = results.read()
         able = {i: runs[json.dumps(c.parameters, sort_keys=True)] & numbers for i, c in enumerate(tests)}
         left = {i: {n for n in able[i] if verdict(known.get(n))[0] == "survived"} for i in able}
-        first = max(able, key=lambda i: (len(left[i]), -size(tests[i].parameters)))
+        most = max(len(numbers) for numbers in left.values())
+        first = min((i for i in able if len(left[i]) >= 0.8 * most), key=lambda i: size(tests[i].parameters))
         call, mine = tests.pop(first), sorted(left[first])
         mine = [n for n in mine if label(call) not in known.get(n, {})]
         if set(mine) - equal:
