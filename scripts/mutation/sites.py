@@ -77,8 +77,8 @@ def constant(expression):
 class Finder:
     """Collects the sites of one file. ``text``: its content; ``sites``: the result, none twice."""
 
-    def __init__(self, path, manager):
-        self.path, self.manager = Path(path).resolve(), manager
+    def __init__(self, path, manager, context):
+        self.path, self.manager, self.context = Path(path).resolve(), manager, context
         self.text = self.path.read_text()
         self.sites = {}
         self.called = {}
@@ -226,9 +226,11 @@ class Finder:
         if limit < 2 or not self.range(selector) or not self.range(node.value):
             return
         text, base = self.source(selector), self.source(node.value)
+        known = selector.eval(self.context)
+        if known and int(known.value) + 1 >= limit:  # of a parameter or genvar
+            return
         if selector.kind == K.IntegerLiteral:
-            if int(selector.value) + 1 < limit:
-                self.add(selector, "index", str(int(selector.value) + 1))
+            self.add(selector, "index", str(int(selector.value) + 1))
         else:
             self.add(selector, "index", f"({text}) < $high({base}) ? ({text}) + 1 : ({text})")
 
@@ -273,7 +275,7 @@ class Finder:
 def find(top, parameters, path, files, include):
     """Sites of the file ``path`` when ``top`` is elaborated with ``parameters``, in order of their place."""
     driver, compilation, instance = elaborate(top, parameters, files, include)
-    finder = Finder(path, driver.sourceManager)
+    finder = Finder(path, driver.sourceManager, A.EvalContext(A.ASTContext(instance.body, A.LookupLocation.max)))
     finder.scope(instance.body)
     finder.functions()
     return sorted(finder.sites, key=lambda s: (s.start, -s.end, OPERATORS.index(s.operator), s.new))
