@@ -70,7 +70,7 @@ def row(name, everything, outcomes, equal):
 
 def module(name, args, progress, known):
     """Mutate one module. Returns its row, the survivors, and listed mutants that a test has killed."""
-    tests, everything, runs = work.prepare(name)
+    tests, everything, runs = work.prepare(name, args.kept)
     wanted = everything if args.all else schema.choose(everything, args.count, name)
     if args.mutant:
         wanted = [m for m in everything if m.number in args.mutant]
@@ -85,7 +85,7 @@ def module(name, args, progress, known):
         progress.update(task, completed=dead, description=f"{name} {where}")
 
     listed = {m.number for m in wanted if key(name, m) in known}
-    outcomes = work.campaign(name, wanted, tests, runs, results, listed, args.jobs, show)
+    outcomes = work.campaign(name, wanted, tests, runs, results, listed, args.jobs, show, args.kept)
     progress.update(task, description=name)
     left = [m for m in wanted if outcomes[m.number][0] == "survived"]
     equal = listed & {m.number for m in left}
@@ -109,6 +109,7 @@ def main():
     parser.add_argument("--all", action="store_true", help="all mutants that the operators make")
     parser.add_argument("--mutant", type=int, action="append", help="only this one, of one module")
     parser.add_argument("--list", action="store_true", help="print the mutants, run nothing")
+    parser.add_argument("--kept", action="store_true", help="run nothing, show what earlier runs have found")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="simulations at a time (default: the cores)")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/mutants.md")
     args = parser.parse_args()
@@ -136,6 +137,9 @@ def main():
                     continue
                 try:
                     cells, survivors, wrong, wanted, outcomes = module(name, args, progress, known)
+                except work.Unknown:
+                    rows.append([name, *["–"] * (len(HEADER) - 2), "not run"])
+                    continue
                 except (work.Broken, sites.Unreadable) as error:
                     print(f"mutants: {error}", file=sys.stderr)
                     broken.append(name)
@@ -159,7 +163,7 @@ def main():
     table = Table(title="mutants")
     for name in HEADER:
         table.add_column(name, justify="left" if name == "module" else "right")
-    total = ["all", *(str(sum(int(r[i]) for r in rows)) for i in range(1, 8))]
+    total = ["all", *(str(sum(int(r[i]) for r in rows if r[i] != "–")) for i in range(1, 8))]
     killed = sum(int(t) for t in total[3:6])
     total.append(f"{killed / max(1, killed + int(total[7])):.1%}")
     rows = sorted(rows) + [total]

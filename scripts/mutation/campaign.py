@@ -29,6 +29,10 @@ LIMIT = 5  # times the computing time of the module as it is, and 3 s
 Call = namedtuple("Call", "module toplevel parameters checks")
 
 
+class Unknown(RuntimeError):
+    """Results are missing and nothing may be run."""
+
+
 class Broken(RuntimeError):
     """The tests fail, or nothing can be built, without any mutant."""
 
@@ -130,8 +134,11 @@ def cached(file, compute):
     return json.loads(file.read_text())
 
 
-def prepare(name):
-    """Simulations, mutants, and the numbers of mutants that each set of parameters can run, from the cache if there."""
+def prepare(name, kept=False):
+    """Simulations, mutants, and the numbers of mutants that each set of parameters can run, from the cache if there.
+
+    kept   compute nothing: raise :class:`Unknown`
+    """
 
     def compute():
         tests = calls(name)
@@ -141,7 +148,10 @@ def prepare(name):
         return [tests, everything, {key: sorted(numbers) for key, numbers in runs.items()}]
 
     tools = [Path(module.__file__).read_bytes() for module in (sites, schema)]
-    tests, everything, runs = cached(PLACE / name / f"{digest(name, *tools)}.json", compute)
+    file = PLACE / name / f"{digest(name, *tools)}.json"
+    if kept and not file.exists():
+        raise Unknown(name)
+    tests, everything, runs = cached(file, compute)
     everything = [schema.Mutant(m[0], sites.Site(*m[1]), *m[2:]) for m in everything]
     return [Call(*c) for c in tests], everything, {key: set(numbers) for key, numbers in runs.items()}
 
@@ -215,12 +225,13 @@ def verdict(lines):
     return "survived", "", ""
 
 
-def campaign(name, wanted, tests, runs, results, equal, jobs, progress):
+def campaign(name, wanted, tests, runs, results, equal, jobs, progress, kept=False):
     """Run the ``wanted`` mutants, a set of parameters after the other, until each is killed or has survived all.
 
     First comes the smallest of those sets that can run nearly as much of what is left as any. Nothing is built only
     for mutants of ``equal`` (numbers), which are listed as equivalent; they run where others do.
     progress   called with the set's name and with the line of the result, None before it is built
+    kept       run nothing: raise :class:`Unknown` where a result is missing
     Returns {mutant: (outcome, detail, label)}. Raises :class:`Broken`.
     """
     text = source(name).read_text()
@@ -235,6 +246,8 @@ def campaign(name, wanted, tests, runs, results, equal, jobs, progress):
         call, mine = tests.pop(first), sorted(left[first])
         mine = [n for n in mine if label(call) not in known.get(n, {})]
         if set(mine) - equal:
+            if kept:
+                raise Unknown(name)
             progress(f"{bench.label(call.parameters)}: build", None)
             changed = schema.rewrite(text, [m for m in wanted if m.number in able[first]])
 
