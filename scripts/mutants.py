@@ -3,6 +3,7 @@
 
 import argparse
 import os
+import signal
 import sys
 import tomllib
 from collections import Counter
@@ -124,6 +125,7 @@ def main():
     if args.write and (args.modules or args.mutant or args.all):
         parser.error("--write is for the run of all modules")
     names = args.modules or names
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))  # ends the simulators, too
     console = Console(width=140, emoji=False)
     rows, bad, broken = [], 0, []
     try:
