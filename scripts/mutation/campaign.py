@@ -22,7 +22,7 @@ from . import schema, sites
 PLACE = ROOT / "build" / "mutants"
 HELPERS = ("bench.py", "streams.py", "streams_extra.py", "spirals.py", "latency.py")
 SEED = "1"
-LIMIT = 5  # times the computing time of the module as it is, and 3 s
+LIMIT = 3  # times the computing time of the module as it is, and 2 s
 
 # module     of the tests: test_<name>
 # toplevel, parameters, checks    as in bench.run

@@ -82,7 +82,7 @@ def serve():
         seconds = used.ru_utime + used.ru_stime
         line = dict(mutant=mutant, outcome=outcome, detail=detail, seconds=round(seconds, 2))
         if mutant == 0:
-            limit = int(order["factor"] * seconds + 3)
+            limit = int(order["factor"] * seconds + 2)
             if outcome != "survived":
                 line["log"] = Path(folder, "log").read_text(errors="replace")[-3000:]
                 waiting = []
