@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal regress second clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal regress second mutants clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -78,6 +78,9 @@ speed: $(READY) ## golden model on one and two threads, and the RTL simulation (
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)
+
+mutants: $(READY) ## small changes of the RTL, one at a time, that its tests must find, of T=<module> or all (JOBS=2 ARGS=)
+	@$(BIN)/python scripts/mutants.py $(MODULE) --jobs $(JOBS) $(ARGS)
 
 clean: ## remove build/
 	rm -rf build
