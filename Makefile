@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals speed synth clean distclean
+.PHONY: help setup render gallery test coverage lint formats accuracy rules spirals speed synth clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -36,6 +36,9 @@ test: $(READY) ## the whole regression (T=<module> SEED=<n> WAVES=1 JOBS=2)
 	@[ -z "$(T)" ] || [ -f "tb/test_$(MODULE).py" ] || { \
 	  echo "make test: found T=$(T); allowed: $(patsubst tb/test_%.py,%,$(wildcard tb/test_*.py))" >&2; exit 2; }
 	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),-v tb/test_$(MODULE).py)
+
+coverage: $(READY) ## blocks, toggled bits and functional bins that each module's own test covers (T=<module> JOBS=2 ARGS=--write)
+	@$(BIN)/python scripts/cover.py $(MODULE) --jobs $(JOBS) $(ARGS)
 
 lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, generated files
 	@$(BIN)/python -m pytest -q tb/test_lint.py

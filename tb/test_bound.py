@@ -79,6 +79,7 @@ async def equals_model(dut):
     form_i = bench.Port(dut, "form_i", bench.FORM)
     for _ in range(max(3, 60 // steps)):
         form = random_form(random)
+        await bench.noise(dut, "form_i")
         form_i.write(bench.form_fields(form))
         waiting = list(stimuli(random, form, n1, steps))
         none = [[0] * ((1 << n1) + 1)] * EARLY

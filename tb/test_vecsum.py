@@ -133,6 +133,7 @@ async def with_forms(dut, all_forms, inputs, expect, clocks):
     form_i = bench.Port(dut, "form_i", bench.FORM)
     for form in all_forms:
         dut._log.info(f"{form.surface}")
+        await bench.noise(dut, "form_i")
         form_i.write(bench.form_fields(form.words))
         for stall in (0.0, 0.4):
             await bench.pipeline(dut, inputs(form), lambda item, f=form: expect(f, item), clocks, stall=stall)
