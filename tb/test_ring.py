@@ -195,6 +195,8 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
+    if bench.parameter(dut, "D") == 1:
+        await bench.noise(dut, "form_i")
     return Shape(dut, random)
 
 

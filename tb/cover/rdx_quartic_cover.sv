@@ -19,7 +19,7 @@ module rdx_quartic_cover (
     `RDX_COVER(rounded_up, en_i && quartic_i && quads_i[3+i][Shift-1])
     `RDX_COVER(rounded_down, en_i && quartic_i && !quads_i[3+i][Shift-1] && quads_i[3+i][Shift-2:0] != '0)
     `RDX_COVER(largest, a_q[i] == Large || b_q[i] == Large)
-    `RDX_COVER(least, a_q[i] == -Large || b_q[i] == -Large)
+    `RDX_COVER(least, a_q[i] <= -Large || b_q[i] <= -Large)
     for (genvar s = 0; s < 4; s++) begin : gen_signs
       `RDX_COVER(signs, a_q[i] != 0 && b_q[i] != 0 && {a_q[i] < 0, b_q[i] < 0} == 2'(s))
     end
@@ -27,7 +27,7 @@ module rdx_quartic_cover (
   end
   for (genvar i = 0; i < 5; i++) begin : gen_form
     `RDX_COVER(near_largest, form_o[i][63:61] == 3'b011)
-    `RDX_COVER(near_least, form_o[i][63:61] == 3'b100)
+    `RDX_COVER(near_least, form_o[i][63:61] == 3'b101)
   end
   `RDX_COVER(no_product, en_i && !quartic_i)
   `RDX_COVER(product, en_i && quartic_i)

@@ -14,7 +14,6 @@ module rdx_ring_cover #(
     input wire logic          rst_ni,
     input wire rdx_pkg::ray_t ray_i,
     input wire logic          ray_valid_i,
-    input wire logic          ray_ready_o,
     input wire logic          hit_valid_o,
     input wire logic          hit_ready_i,
     input wire control_t      back,
