@@ -60,10 +60,21 @@ def configuration(toplevel: str) -> str:
     return "`verilator_config\n" + "".join(f'coverage_off -file "{path}"\n' for path in others)
 
 
+def _texts(test: str) -> bytes:
+    """What a test's stimuli depend on: its text, that of the tests that it imports, and the bench's."""
+    place, wanted, waiting = ROOT / "tb", set(), [test]
+    while waiting:
+        name = waiting.pop()
+        if name not in wanted and (place / f"{name}.py").exists():
+            wanted.add(name)
+            waiting += re.findall(r"^(?:import|from) (test_\w+)", (place / f"{name}.py").read_text(), re.M)
+    files = [p for p in sorted(place.glob("*.py")) if p.stem in wanted or not p.stem.startswith("test_")]
+    return b"".join(p.read_bytes() for p in files)
+
+
 def result_file(target: Path, test: str, checks: list[str] | None, seed: int) -> Path:
-    """Where the counts of a run are kept: its name depends on the build, the test's text, the checks and the seed."""
-    helpers = [p for p in sorted((ROOT / "tb").glob("*.py")) if p.stem == test or not p.stem.startswith("test_")]
-    facts = b"".join(p.read_bytes() for p in helpers) + repr((checks, seed)).encode()
+    """Where the counts of a run are kept: its name depends on the build, the test's texts, the checks and the seed."""
+    facts = _texts(test) + repr((checks, seed)).encode()
     return RESULTS / f"{target.name}-{hashlib.sha256(facts).hexdigest()[:12]}.dat.gz"
 
 
