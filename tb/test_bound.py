@@ -59,7 +59,7 @@ def stimuli(random, form, n1, steps):
     for zone in range(ZONES):
         for level in range(steps):
             lipschitz, curvature, _ = stated(form, level, zone, n1)
-            for _ in range(3):
+            for _ in range(6):
                 yield zone, level, random_values(random, [int(lipschitz), int(curvature)], (1 << n1) + 1)
 
 

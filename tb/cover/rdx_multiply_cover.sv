@@ -23,7 +23,7 @@ module rdx_multiply_cover #(
   if (Drop > 0) begin : gen_floor
     `RDX_COVER(exact, total != 0 && (total & ((Full'(1) << Drop) - 1)) == 0)
     `RDX_COVER(floor_of_negative, total < 0 && (total & ((Full'(1) << Drop) - 1)) != 0)
-    `RDX_COVER(floor_to_minus_one, total < 0 && total >>> Drop == '1)
+    `RDX_COVER(floor_to_minus_one, total < 0 && (total >>> Drop) == -1)
   end
   `RDX_COVER(stalled, !en_i)
 endmodule
