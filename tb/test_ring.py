@@ -86,7 +86,7 @@ def segment_of(first, degree):
 
 
 def random_chord(random, shape):
-    """First segment of a ray of the surface's frame, from either end; or between any two points within reach, with any depths."""
+    """First segment of a ray of the frame, from either end; or between any two points within reach and depths."""
     first = random.choice(shape.firsts).copy()
     reach = 7 << COORD_FRAC - 2
     kind = random.random()
