@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal regress second mutants clean distclean
+.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -45,6 +45,9 @@ second: $(READY) ## the module tests under Icarus Verilog, with four-state value
 
 formal: $(READY) ## machine proofs of the RTL, of POINT= or all of them, each also of a broken design (ARGS=)
 	@$(BIN)/python scripts/formal.py $(POINT) $(ARGS)
+
+coverage: $(READY) ## blocks, toggled bits and functional bins that each module's own test covers (T=<module> JOBS=2 ARGS=--write)
+	@$(BIN)/python scripts/cover.py $(MODULE) --jobs $(JOBS) $(ARGS)
 
 lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, generated files
 	@$(BIN)/python -m pytest -q tb/test_lint.py

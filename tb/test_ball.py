@@ -5,7 +5,7 @@ import cocotb
 
 import bench
 from raydix.cordic import lengths
-from raydix.formats import FORM_INDEX, LENGTH_ITERATIONS
+from raydix.formats import FORM_INDEX, LENGTH_ITERATIONS, VECTOR_WIDTH
 from raydix.kernel import words
 from raydix.vecsum import ball, new_lanes
 from test_vecsum import forms, points, with_forms
@@ -30,7 +30,8 @@ async def equals_model(dut):
     random = bench.rng()
 
     def items(form):
-        dut.size_i.value = int(form.words[FORM_INDEX[random.choice(("tube", "tube_stop"))]])
+        sizes = [int(form.words[FORM_INDEX[name]]) for name in ("tube", "tube_stop")]
+        dut.size_i.value = random.choice((*sizes, random.getrandbits(VECTOR_WIDTH - 2)))
         for point in points(random, form, 150):
             yield {"point_i": point, "stop_i": random.getrandbits(1)}
 

@@ -61,7 +61,7 @@ def stimuli(random, form, n1, steps):
     for zone in range(ZONES):
         for level in range(steps):
             lipschitz, curvature, _ = stated(form, level, zone, n1)
-            for _ in range(3):
+            for _ in range(6):
                 yield zone, level, random_values(random, [int(lipschitz), int(curvature)], (1 << n1) + 1)
 
 
@@ -81,6 +81,7 @@ async def equals_model(dut):
     form_i = bench.Port(dut, "form_i", bench.FORM)
     for _ in range(max(3, 60 // steps)):
         form = random_form(random)
+        await bench.noise(dut, "form_i")
         form_i.write(bench.form_fields(form))
         waiting = list(stimuli(random, form, n1, steps))
         none = [[0] * ((1 << n1) + 1)] * EARLY

@@ -11,7 +11,7 @@ import spirals
 import streams
 import streams_extra
 from raydix.ends import ends
-from raydix.formats import COORD_FRAC, VECTOR_WIDTH
+from raydix.formats import COORD_FRAC, DEPTH_WIDTH, VECTOR_WIDTH
 from raydix.item import DEPTH, B, C
 from raydix.kernel import words, zeros
 from raydix.vecsum import new_lanes
@@ -36,7 +36,8 @@ def items(random, found, count):
         if random.random() < 0.4:
             corner = (REACH, -REACH, 0, 1, -1)
             points = [[random.choice((*corner, random.randint(-REACH, REACH))) for _ in range(3)] for _ in range(2)]
-        segment = dict(start=points[0], stop=points[1], depth_start=first[DEPTH], depth_stop=first[DEPTH + 1])
+        depths = [random.choice((int(first[DEPTH + i]), random.getrandbits(DEPTH_WIDTH - 1))) for i in range(2)]
+        segment = dict(start=points[0], stop=points[1], depth_start=depths[0], depth_stop=depths[1])
         yield bench.RAY.unpack(random.getrandbits(bench.RAY.width)), segment
 
 
@@ -54,8 +55,9 @@ async def start(dut, random):
     dut.ray_ready_i.value = 0
     surfaces = spirals.GENERAL if bench.parameter(dut, "General") else spirals.HELIX
     found = spirals.surface(*random.choice(surfaces), 3)
-    bench.Port(dut, "form_i", bench.FORM).write(bench.form_fields(spirals.form(found)))
     await bench.start(dut)
+    await bench.noise(dut, "form_i")
+    bench.Port(dut, "form_i", bench.FORM).write(bench.form_fields(spirals.form(found)))
     return found
 
 

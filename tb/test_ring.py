@@ -66,14 +66,15 @@ def bernstein(roots, degree, width, sign):
 
 
 def random_request(random, shape, number):
-    """A ray with a number of its own that asks for anything."""
+    """A ray with a number of its own, all over the pixels, that asks for anything."""
+    number = number * 0x9E3779 & 0xFFFFFF  # odd, so no two are the same
     return {
         "surface": random.getrandbits(6),
         "x": number & 0xFFF,
         "y": number >> 12,
         "paper": {CERTIFIED: 0, PAPER_RULE: 1, BOTH: random.getrandbits(1)}[shape.rules],
         "roots": random.randint(1, 4),
-        "box": [random.choice((0, 0, 0, 0, 1, 2, 7, 20)) for _ in range(3)],
+        "box": [random.choice((0, 0, 0, 0, 1, 2, 7, 10, 20)) for _ in range(3)],
     }
 
 
@@ -85,12 +86,13 @@ def segment_of(first, degree):
 
 
 def random_chord(random, shape):
-    """First segment of a ray of the surface's frame, from either end; or between any two points within reach."""
+    """First segment of a ray of the frame, from either end; or between any two points within reach and depths."""
     first = random.choice(shape.firsts).copy()
     reach = 7 << COORD_FRAC - 2
     kind = random.random()
     if kind < 0.2:
         first[C : C + 6] = words(random.randint(-reach, reach) for _ in range(6))
+        first[DEPTH : DEPTH + 2] = words(random.getrandbits(31) for _ in range(2))
     elif kind < 0.4:
         first[C : C + 3], first[C + 3 : C + 6] = first[C + 3 : C + 6].copy(), first[C : C + 3].copy()
     ends(first, new_lanes(2), shape.form, shape.general)
@@ -195,6 +197,8 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
+    if bench.parameter(dut, "D") == 1:
+        await bench.noise(dut, "form_i")
     return Shape(dut, random)
 
 

@@ -139,6 +139,7 @@ async def equals_model(dut):
                 segment |= {name: given[name] for name in ("start", "stop", "depth_start", "depth_stop")}
             return dict(control_o=control, segment_o=segment)
 
+        await bench.noise(dut, "low_i", "high_i")
         for name, face in zip(("low_i", "high_i"), faces, strict=True):
             bench.Port(dut, name, FACES).write(dict(face=face))
         await bench.pipeline(dut, items, expect, LATENCY, kinds)

@@ -334,6 +334,7 @@ async def vector_sums_equal_model(dut):
     clocks = 0
     for found in surfaces(dut):
         constants = spirals.form(found)
+        await bench.noise(dut, "form_i")
         place.write(bench.form_fields(constants))
         items = list(vector_sum_stimuli(dut, random, found, 150))
         number = {id(item["control_i"]): item for item in items}  # the bubbles are not in it

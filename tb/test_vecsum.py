@@ -31,6 +31,7 @@ from test_cordic import bounds
 
 SCENES = ("spiral", "shell", "flat_spiral")
 MOST = (7 << (formats.COORD_FRAC - 2)) - 1  # largest coordinate of a point
+LONG = {"r": 0.004, "pitch": 0.02, "turns": 100, "R_growth": 0.001}
 ULP = 1 / (1 << formats.VECTOR_FRAC)  # of a length
 
 
@@ -70,14 +71,14 @@ def random_sizes(random, general):
     return sizes
 
 
-def random_form(random, general):
-    """A random spiral, compiled for a random ray; unless ``general`` one of a turn at least whose radii do not grow."""
+def random_form(random, general, sizes=None):
+    """A spiral of random sizes, or of those given, compiled for a random ray; unless ``general`` a helix."""
     while True:
         reach = 10 ** random.uniform(-1, 1)
         ray = [mp.matrix([random.uniform(-reach, reach) for _ in range(3)]) for _ in range(2)]
         h, e = ((point, mp.zeros(3, 1), mp.zeros(3, 1)) for point in ray)
         try:
-            surface = Spiral(type="spiral", R=1, **random_sizes(random, general))
+            surface = Spiral(type="spiral", R=1, **(sizes or random_sizes(random, general)))
             _, found, origin, unit = spiral_words(surface, h, e, None, None, (False,) * 3, 1, 1, 3)
         except (ValidationError, Oversize):
             continue
@@ -85,9 +86,11 @@ def random_form(random, general):
 
 
 def forms(random, general, count):
-    """The spirals of the scenes that the evaluator is made for, then ``count`` random ones."""
+    """The spirals of the scenes that the evaluator is made for, one of many turns, then ``count`` random ones."""
     found = [scene_form(name) for name in SCENES]
     yield from (form for form in found if general or not needs_general(form.surface))
+    if general:
+        yield random_form(random, general, LONG)
     for _ in range(count):
         yield random_form(random, general)
 
@@ -133,6 +136,7 @@ async def with_forms(dut, all_forms, inputs, expect, clocks):
     form_i = bench.Port(dut, "form_i", bench.FORM)
     for form in all_forms:
         dut._log.info(f"{form.surface}")
+        await bench.noise(dut, "form_i")
         form_i.write(bench.form_fields(form.words))
         for stall in (0.0, 0.4):
             await bench.pipeline(dut, inputs(form), lambda item, f=form: expect(f, item), clocks, stall=stall)

@@ -28,6 +28,7 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
+    await bench.noise(dut, "form_i")
     return Vector(dut, random)
 
 
@@ -69,7 +70,7 @@ async def equals_model(dut, idle, stall):
     random = bench.rng(f"{idle} {stall}")
     shape = await start(dut, random)
     watch = cocotb.start_soon(idle_is_empty(dut))
-    for count in (30, 1, 12):
+    for count in (30 if idle or stall else 200, 1, 12):  # so many that some enter while others leave
         await surface(dut, shape, random, idle, stall, count)
         shape.use(dut, random)
     watch.cancel()

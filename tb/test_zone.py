@@ -18,7 +18,7 @@ def model(xs, ys):
 
 
 def stimuli(dut):
-    """Every edge of a zone and its neighbours, alone in x, in y, and together; then random points, near and far."""
+    """All points at -1; every edge of a zone and its neighbours, in x, in y, and in both; then random points."""
     random = bench.rng()
     count = len(bench.Port(dut, "x_i").handles)
 
@@ -28,6 +28,7 @@ def stimuli(dut):
         points[random.randrange(count)] = x, y
         return [list(values) for values in zip(*points, strict=True)]
 
+    yield [[-1] * count] * 2
     for edge in EDGES:
         for x, y in ((edge, 0), (0, edge), (-1, edge), (edge, random.choice(EDGES)), (random.choice(EDGES), edge)):
             yield with_others(x, y)

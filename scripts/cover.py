@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Coverage of each module of the RTL by its own test: blocks and branches, toggled bits, functional bins."""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from raydix import coverpoints
+from raydix.blocks import write_table
+from raydix.rtl import sources
+
+ROOT = Path(__file__).resolve().parents[1]
+SEED = "1"  # the same stimuli each time, so that results can be kept
+HEADER = ("module", "runs", "blocks", "waived", "toggles", "waived", "toggled", "bins", "waived")
+
+
+def modules(wanted):
+    """Names of the modules that have a test, or of the one wanted. Raises ValueError where it is none."""
+    names = [path.stem.removeprefix("rdx_") for path in sources() if path.stem != "rdx_pkg"]
+    if wanted and wanted.removeprefix("rdx_") not in names:
+        raise ValueError(f"found {wanted}; allowed: {', '.join(sorted(names))}")
+    return [wanted.removeprefix("rdx_")] if wanted else names
+
+
+def run_tests(names, jobs):
+    """Run the tests of modules that have no results yet; names of the results' files. None where a test fails."""
+    with tempfile.TemporaryDirectory() as folder:
+        manifest = Path(folder, "results")
+        manifest.touch()
+        files = [f"tb/test_{name}.py" for name in names]
+        environment = {**os.environ, coverpoints.MANIFEST: str(manifest), "SEED": SEED, "WAVES": ""}
+        command = [sys.executable, "-m", "pytest", "-q", "-n", str(jobs), "--dist", "worksteal", *files]
+        if subprocess.run(["nice", "-n", "10", *command], cwd=ROOT, env=environment).returncode:
+            return None
+        return sorted(set(manifest.read_text().split()))
+
+
+def collect(names, files):
+    """Points of each module by its own results: (points, number of results)."""
+    points, runs = {}, {}
+    for name in names:
+        mine = [coverpoints.RESULTS / file for file in files if file.startswith(f"rdx_{name}-")]
+        runs[name] = len(mine)
+        points.update({p: n for p, n in coverpoints.merge(mine).items() if p.module == name})
+    return points, runs
+
+
+def texts(name, runs, row):
+    """Cells of a module's row."""
+    block, toggle, bins = row["block"], row["toggle"], row["bin"]
+    share = toggle.hit / (toggle.total - toggle.waived) if toggle.total > toggle.waived else 1.0
+    counts = [f"{block.hit}/{block.total}", str(block.waived)]
+    counts += [f"{toggle.hit:,}/{toggle.total:,}", f"{toggle.waived:,}", f"{100 * share:.2f} %"]
+    return [name, str(runs), *counts, f"{bins.hit}/{bins.total}", str(bins.waived)]
+
+
+def add(rows):
+    """The row of all modules."""
+    return {k: coverpoints.Row(*map(sum, zip(*(row[k] for row in rows), strict=True))) for k in rows[0]}
+
+
+def main():
+    """Command line: 0 where every gap is closed or waived, 1 where not, 2 for a mistake of the user's."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("module", nargs="?", help="only this one")
+    parser.add_argument("--jobs", type=int, default=1, help="builds and simulations at a time (default: 1)")
+    parser.add_argument("--write", action="store_true", help="renew the table in docs/coverage.md")
+    args = parser.parse_args()
+    try:
+        names = modules(args.module)
+        rules = coverpoints.waivers(coverpoints.WAIVERS)
+    except (ValueError, OSError) as error:
+        print(f"coverage: {error}", file=sys.stderr)
+        return 2
+    if args.write and args.module:
+        print(f"coverage: found --write with {args.module}; the table is of all modules", file=sys.stderr)
+        return 2
+    files = run_tests(names, args.jobs)
+    if files is None:
+        print("coverage: a test failed, so there is no table", file=sys.stderr)
+        return 1
+    points, runs = collect(names, files)
+    waived, idle = coverpoints.apply(points, rules)
+    table = coverpoints.rows(points, waived)
+    lines = [texts(name, runs[name], row) for name, row in table.items()]
+    if len(lines) > 1:
+        lines.append(texts("all", sum(runs.values()), add(list(table.values()))))
+    shown = Table()
+    for title in HEADER:
+        shown.add_column(title, justify="left" if title == "module" else "right")
+    for line in lines:
+        shown.add_row(*line)
+    Console(width=120).print(shown)
+    if args.write:
+        write_table(ROOT / "docs" / "coverage.md", "coverage", HEADER, lines)
+    left = coverpoints.gaps(points, waived) + idle
+    for line in left:
+        print(line)
+    return 1 if left else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

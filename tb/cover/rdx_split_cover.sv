@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functional bins of rdx_split.
+`default_nettype none
+`include "rdx_cover.svh"
+
+module rdx_split_cover #(
+    parameter int unsigned N1 = 3
+) (
+    input wire logic          clk_i,
+    input wire logic [N1-1:0] pick_i
+);
+  for (genvar j = 0; j < (1 << N1); j++) begin : gen_cell
+    `RDX_COVER(picked, 32'(pick_i) == j)
+  end
+endmodule
+
+bind rdx_split rdx_split_cover #(.N1(N1)) u_cover (.*);
+
+`default_nettype wire

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functional bins of rdx_vecsum.
+`default_nettype none
+`include "rdx_cover.svh"
+
+module rdx_vecsum_cover #(
+    parameter bit General = 1'b0,
+    localparam int unsigned Parts = General ? 2 : 1
+) (
+    input wire logic             clk_i,
+    input wire logic             en_i,
+    input wire logic             none,
+    input wire rdx_pkg::vector_t distance[2*Parts],
+    input wire rdx_pkg::vector_t nearer_q[      2],
+    input wire rdx_pkg::vector_t size_q,
+    input wire rdx_pkg::vector_t axis_q  [      3],
+    input wire rdx_pkg::vector_t below_q,
+    input wire rdx_pkg::vector_t guard_q,
+    input wire rdx_pkg::vector_t least_q,
+    input wire rdx_pkg::vector_t value_o
+);
+  for (genvar i = 0; i < Parts; i++) begin : gen_part
+    `RDX_COVER(tube_nearer, distance[2*i] < distance[2*i+1])
+    `RDX_COVER(ball_nearer, distance[2*i] > distance[2*i+1])
+  end
+  if (General) begin : gen_general
+    `RDX_COVER(first_part, nearer_q[0] < nearer_q[1])
+    `RDX_COVER(second_part, nearer_q[1] < nearer_q[0])
+    `RDX_COVER(no_turn, none)
+  end
+  `RDX_COVER(not_limited, size_q < (axis_q[2] >>> 1))
+  `RDX_COVER(limited_by_axis, size_q > (axis_q[2] >>> 1))
+  `RDX_COVER(raised_by_guard, below_q < guard_q)
+  `RDX_COVER(guard_below, below_q > guard_q)
+  `RDX_COVER(inside_solid, least_q < 0)
+  `RDX_COVER(outside_solid, least_q > 0)
+  `RDX_COVER(inside_value, value_o < 0)
+  `RDX_COVER(stalled, !en_i)
+endmodule
+
+bind rdx_vecsum rdx_vecsum_cover #(.General(General)) u_cover (.*);
+
+`default_nettype wire
