@@ -3,6 +3,8 @@
 
 import os
 import re
+import subprocess
+import sys
 from unittest.mock import patch
 
 import cocotb
@@ -11,7 +13,7 @@ from cocotb.triggers import Timer
 
 import bench
 import second
-from raydix.rtl import RTL
+from raydix.rtl import ROOT, RTL
 
 WIDTH = 173
 
@@ -86,3 +88,18 @@ def test_missing_reset_is_found(icarus, monkeypatch, tmp_path, capfd, module, ol
     with pytest.raises(AssertionError):
         bench.run(f"test_{module.removeprefix('rdx_')}", module)
     assert re.search("unknown output of control|non-0/1 values|Logic\\('X'\\)", capfd.readouterr().out)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "path", "line"),
+    [
+        (["nonsense", "ring"], os.environ["PATH"], "second: found nonsense; allowed: algebraic, "),
+        (["register"], "/nonexistent", f"second: {second.MISSING}\n"),
+    ],
+    ids=["unknown module", "no Icarus"],
+)
+def test_one_line_refuses(arguments, path, line):
+    """A clear line and exit status 2."""
+    command = [sys.executable, str(ROOT / "scripts" / "second.py"), *arguments]
+    run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
+    assert run.returncode == 2 and run.stderr.startswith(line) and run.stderr.count("\n") == 1, run.stderr
