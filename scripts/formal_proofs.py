@@ -194,8 +194,8 @@ PROOFS = {
         {"N1": 1},
         "induction 5",
         (
-            ("rdx_bound", "up = bound + 1'b1;", "up = bound;"),
-            ("rdx_bound", "(7'(level) + 7'd1) * digits", "7'(level) * digits"),
+            ("rdx_bound", "(BoundWidth + 1)'(bound) + 1'b1;", "(BoundWidth + 1)'(bound);"),
+            ("rdx_bound", "(6'(level_i) + 6'd1) * 6'(N1)", "6'(level_i) * 6'(N1)"),
             ("rdx_bound", "(bend_q >> 2)", "(bend_q >> 3)"),
         ),
         stages=2,

@@ -35,25 +35,28 @@ module formal_bound #(
 
   logic [2:0] clocks = '0;
 
-  // ---- the bounds of the cell, rounded up, two clocks before the values ----
+  // ---- the bounds of the cell, rounded up, three clocks before the values ----
   number_t change, curvature, change_q, curvature_q;
   logic curved, curved_q;
   wire [5:0] digits = 6'(N1) * (6'(level_i) + 6'd1);  // the cell is 2^-digits of the segment
   assign change = (number_t'(form_i.lipschitz[zone_i]) >> digits) + 58'd1;
-  assign curvature = (number_t'(form_i.curvature[zone_i]) >> (7'(digits) * 7'd2)) + 58'd1;
+  wire [6:0] since = 7'(2 * N1) * 7'(6'(level_i) - form_i.from_level[zone_i]);  // the word is that of from_level
   assign curved = 6'(level_i) >= form_i.from_level[zone_i];
-  number_t change_d, curvature_d;
-  logic curved_d;
+  assign curvature = (number_t'(form_i.curvature[zone_i]) >> (curved ? since : 7'd0)) + 58'd1;
+  number_t change_d[2], curvature_d[2];
+  logic curved_d[2];
   always_ff @(posedge clk_i) begin
-    {change_d, curvature_d, curved_d} <= {change, curvature, curved};
-    {change_q, curvature_q, curved_q} <= {change_d, curvature_d, curved_d};
+    {change_d[0], curvature_d[0], curved_d[0]} <= {change, curvature, curved};
+    {change_d[1], curvature_d[1], curved_d[1]} <= {change_d[0], curvature_d[0], curved_d[0]};
+    {change_q, curvature_q, curved_q} <= {change_d[1], curvature_d[1], curved_d[1]};
   end
 
   // the module keeps them in 39 bits, the largest of which no sum of two magnitudes exceeds
   localparam number_t Most = number_t'({VectorWidth + 1{1'b1}});
-  `LEMMA(0, p_change, clocks < 3'd2 || number_t'(u_bound.most_q) == (change_q > Most ? Most : change_q))
-  `LEMMA(0, p_curvature, clocks < 3'd2 || number_t'(u_bound.bend_q) == (curvature_q > Most ? Most : curvature_q))
-  `LEMMA(0, p_curved, clocks < 3'd2 || u_bound.curved_q == curved_q)
+  `LEMMA(0, p_change, clocks < 3'd3 || number_t'(u_bound.most_q) == (change_q > Most ? Most : change_q))
+  `LEMMA(0, p_curvature,
+         clocks < 3'd3 || !curved_q || number_t'(u_bound.bend_q) == (curvature_q > Most ? Most : curvature_q))
+  `LEMMA(0, p_curved, clocks < 3'd3 || u_bound.curved_q == curved_q)
 
   logic [J-1:0] wanted, wanted_d, wanted_q, one_sign, one_sign_d, one_sign_q;
   for (genvar j = 0; j < J; j++) begin : gen_cell
@@ -78,10 +81,10 @@ module formal_bound #(
   always_ff @(posedge clk_i) begin
     {wanted_d, wanted_q} <= {wanted, wanted_d};
     {one_sign_d, one_sign_q} <= {one_sign, one_sign_d};
-    if (clocks != 3'd4) clocks <= clocks + 1'b1;
+    if (clocks != 3'd5) clocks <= clocks + 1'b1;
   end
-  `LEMMA(1, p_possible, clocks != 3'd4 || ((possible ^ wanted_q) & one_sign_q) == '0)
-  `REACH(r_both, clocks == 3'd4 && one_sign_q == '1 && wanted_q != '0 && wanted_q != '1)
+  `LEMMA(1, p_possible, clocks != 3'd5 || ((possible ^ wanted_q) & one_sign_q) == '0)
+  `REACH(r_both, clocks == 3'd5 && one_sign_q == '1 && wanted_q != '0 && wanted_q != '1)
 
 endmodule
 
