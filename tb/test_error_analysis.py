@@ -11,7 +11,7 @@ from raydix import error_measure
 from raydix.config import Config
 from raydix.error_bounds import halving
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
 import errors  # noqa: E402  (a script, found by the path above)
 
 

@@ -15,7 +15,7 @@ from raydix.oracle_spiral import spiral_chord_roots
 from raydix.scene import Spiral
 from raydix.segments import Segments, trace_segments, whole
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
 import search  # noqa: E402  (a script, found by the path above)
 
 CONFIG = Config(units=1)

@@ -13,7 +13,7 @@ from raydix.exact import changes
 from raydix.segments import Segments, trace_segments, whole
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.append(str(ROOT / "scripts"))
 import stress as script  # noqa: E402  (a script, found by the path above)
 
 REFERENCE = Config(units=1)
