@@ -37,7 +37,7 @@ sys.exit(formal.main(["merge"]))
 """
     run = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 1, run.stdout + run.stderr
-    assert "merge: refuted: gen_input" in run.stderr
+    assert "formal: merge: refuted: " in run.stderr and "p_fair" in run.stderr
 
 
 def test_bad_input():
