@@ -6,7 +6,7 @@
 module rdx_form_cover (
     input wire logic       clk_i,
     input wire logic       load_i,
-    input wire logic [5:0] index_i
+    input wire logic [6:0] index_i
 );
   for (genvar i = 0; i < rdx_pkg::FormWords; i++) begin : gen_word
     `RDX_COVER(loaded, load_i && 32'(index_i) == i)
