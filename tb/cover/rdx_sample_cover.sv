@@ -11,7 +11,7 @@ module rdx_sample_cover #(
     input wire logic          clk_i,
     input wire logic [   3:0] phase_i,
     input wire logic [N1-1:0] pick_i,
-    input wire logic [   2:0] zone_q,
+    input wire logic [   3:0] zone_q,
     input wire logic [ J-1:0] outside_o,
     input wire logic [ J-1:0] possible_o
 );
