@@ -2,6 +2,7 @@
 """Rounding errors of each stage: the bound that is derived, the worst that was found, and the slack between them."""
 
 import argparse
+import random
 import sys
 from pathlib import Path
 
@@ -10,11 +11,15 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from raydix import stress_polynomials, stress_rays
+from raydix import stress, stress_polynomials, stress_rays, stress_spirals
 from raydix.blocks import write_table
 from raydix.chords import chord_quads
+from raydix.chords_spiral import random_spiral
+from raydix.compile_spiral import needs_general
 from raydix.config import Config
-from raydix.error_measure import coordinate_error, halving_error, product_errors
+from raydix.error_bounds import halving
+from raydix.error_measure import coordinate_error, halving_error, indicator_errors, product_errors
+from raydix.exact import extrema
 from raydix.segments import Segments, trace_segments, whole
 from raydix.surfaces import form
 
@@ -68,6 +73,47 @@ def coordinate_rows(count: int, seed: int):
     yield ["hit point below", "2^-30", count, 0.0, -least], least < 0
 
 
+def indicator_rows(count: int, seed: int):
+    """Points about the surface of random spirals, carried coordinates exact: the evaluator's part of epsilon."""
+    dice, dots = random.Random(seed), np.random.default_rng(seed)
+    worst, cases = 0.0, 0
+    for _ in range(max(1, count // 50)):
+        surface = random_spiral(dice)
+        config = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
+        turns, tilt = dots.uniform(0, surface.turns, 50), dots.uniform(0, 2 * np.pi, 50)
+        points = stress_spirals.tube_points(surface, turns, tilt, 2.0 ** dots.uniform(-3, 2, 50))
+        for _, found in indicator_errors(surface, points, config):
+            cases, worst = cases + 1, max(worst, found)
+    yield ["indicator of a spiral", "ε", cases, 1.0, worst], worst > 1
+
+
+def root_rows(count: int, seed: int):
+    """First roots of the stress categories: error of the well-conditioned ones outside of the band."""
+    config, worst, cases = Config(units=1), 0.0, 0
+    for make in stress.categories(4).values():
+        for segments in make(np.random.default_rng(seed), count, config):
+            judged = stress.judge(segments, trace_segments(segments, config)[0][:, 0], config)
+            error = judged.error[judged.well & ~judged.band & ~np.isnan(judged.error)]
+            worst, cases = max(worst, float(error.max(initial=0))), cases + len(error)
+    yield ["t of a well-conditioned root", "ulp of t", cases, 2.0, worst], worst > 2
+
+
+def dip_rows(count: int, seed: int):
+    """Rays on which rounding decided: the extremum of f nearest to zero, where it is farthest from it."""
+    config, found = Config(units=1), {"missed pair: depth of f below 0": [], "false pair: f at most below 0": []}
+    named, bound = stress.categories(4), halving(3, 8, 4)
+    for name in ("near-tangent, 2^-8 to 2^-40", "two close roots in a cell", "as many roots as the degree"):
+        for segments in named[name](np.random.default_rng(seed), count, config):
+            judged = stress.judge(segments, trace_segments(segments, config)[0][:, 0], config)
+            for label, which in zip(found, (judged.missed, judged.false), strict=True):
+                for i in np.flatnonzero(which):
+                    b = segments.b[i].tolist()
+                    found[label].append(min(abs(v) for v in (b[0], b[-1], *(v for _, v in extrema(b)))))
+    for label, values in found.items():
+        worst = max(values, default=0.0)
+        yield [label, "ulp of f", len(values), bound, worst], worst > bound
+
+
 def text(row) -> list[str]:
     """The cells of a row."""
     name, unit, cases, bound, found = row
@@ -82,7 +128,15 @@ def main() -> int:
     parser.add_argument("--write", action="store_true", help="renew the table in docs/error-analysis.md")
     args = parser.parse_args()
     rows, refuted = [], []
-    for make, count in ((halving_rows, args.rays), (product_rows, 4 * args.rays), (coordinate_rows, 20 * args.rays)):
+    kinds = (
+        (halving_rows, args.rays),
+        (product_rows, 4 * args.rays),
+        (coordinate_rows, 20 * args.rays),
+        (dip_rows, 100 * args.rays),
+        (root_rows, 20 * args.rays),
+        (indicator_rows, 10 * args.rays),
+    )
+    for make, count in kinds:
         for row, bad in make(count, args.seed):
             rows.append(text(row))
             refuted += [row[0]] if bad else []

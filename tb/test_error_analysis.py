@@ -63,6 +63,21 @@ def test_coordinates():
     assert below[4] == 0
 
 
+def test_dips():
+    """Pairs that were lost or added had f within the bound of the halving, some by several ulp."""
+    lost, added = checked(errors.dip_rows(3000, 1))
+    assert lost[2] > 50
+    assert added[2] > 50
+    assert min(lost[4], added[4]) > 0.5
+
+
+def test_indicator():
+    """The evaluator is within epsilon of the exact indicator, and a twentieth of it is reached."""
+    (row,) = checked(errors.indicator_rows(200, 1))
+    assert row[2] > 100
+    assert row[4] > 0.02
+
+
 @pytest.mark.parametrize("n1", [1, 2, 3, 4])
 def test_bound_does_not_grow_with_steps(n1):
     """The bound of the halving converges: a third of the digits more adds next to nothing."""

@@ -9,14 +9,19 @@ from fractions import Fraction
 from math import comb
 
 import numpy as np
+from flint import arb
 
 from .cells import subdivide
+from .chords_spiral import compile_chords
 from .config import Config
+from .cordic import gain
 from .error_bounds import coordinates, halving, product_error
-from .formats import OPERAND_SHIFT, PRODUCT_DROP, QUAD_ACC_WIDTH
+from .exact_spiral import ends_of_words, indicator
+from .formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS, OPERAND_SHIFT, PRODUCT_DROP, QUAD_ACC_WIDTH, VECTOR_FRAC
 from .halve import average
 from .normalize import norm_limit, normalize, redundant_bits
 from .segments import products
+from .vecsum import GUARD, evaluate, new_lanes
 
 
 def part(b: list, start: Fraction, stop: Fraction) -> list[Fraction]:
@@ -98,3 +103,24 @@ def polynomial(b: list, t: Fraction) -> Fraction:
     """Value at t, exact."""
     n = len(b) - 1
     return sum(comb(n, i) * int(c) * t**i * (1 - t) ** (n - i) for i, c in enumerate(b))
+
+
+def indicator_errors(surface, points: np.ndarray, config: Config) -> list[tuple[float, float]]:
+    """The evaluator at points (N, 3), float64, local: (bound, |computed - exact|) of each, as parts of the bound.
+
+    Points where the value is limited by the distance from the axis are left out.
+    """
+    compiled = compile_chords(surface, points, points, config)
+    lanes, general, out = new_lanes(1), int(config.vecsum == "general"), []
+    squared = float(gain(ANGLE_ITERATIONS) * gain(LENGTH_ITERATIONS) * compiled.factors[0]) * 2.0**VECTOR_FRAC
+    for words in compiled.coordinates:
+        for axis, lane in enumerate((lanes.x, lanes.y, lanes.z)):
+            lane[0] = words[axis]
+        evaluate(lanes, 1, compiled.form, general)
+        value, axis = int(lanes.value[0]), int(lanes.rho[0])
+        if abs(value) >= 3 * axis >> 2 or abs(value) <= int(compiled.form[GUARD]) - (3 * axis >> 1):
+            continue
+        point, _ = ends_of_words([int(w) for w in words], compiled.factors, compiled.middle)
+        exact = float(indicator(surface, [arb(v) for v in point]).mid())
+        out.append((1.0, abs(value / squared - exact) / compiled.epsilon))
+    return out
