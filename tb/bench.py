@@ -125,7 +125,8 @@ def run(module, toplevel, parameters=None, checks=None):
     replay = f"make test T={module.removeprefix('test_')} SEED={seed}"
     print(f"{name}: SEED={seed}, replay: {replay}")
     waves = ("fst" if has_fst() else "vcd") if os.environ.get("WAVES") not in (None, "", "0") and not icarus else None
-    arguments = [] if icarus else ["+verilator+rand+reset+2", f"+verilator+seed+{seed % 0x7FFFFFFF + 1}"]
+    start = 0 if os.environ.get(coverpoints.MANIFEST) else 2  # random values at the start would count as toggles
+    arguments = [] if icarus else [f"+verilator+rand+reset+{start}", f"+verilator+seed+{seed % 0x7FFFFFFF + 1}"]
     if waves:
         file = WAVES / f"{name}.{waves}"
         WAVES.mkdir(parents=True, exist_ok=True)
