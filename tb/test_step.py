@@ -274,6 +274,9 @@ def made_up(random, constants, left):
         face, axis = random.choice(("low", "high")), random.randrange(3)
         start[axis] = constants[face][axis] + random.choice((-1, 0, 1))
     stop = [v + random.randint(-REACH, REACH) // (1 << random.choice((0, 2, 32 - left))) for v in start]
+    if random.random() < 0.3:  # near the axis
+        near = random.randint(0, 20)
+        start[:2], stop[:2] = ([v >> near for v in end[:2]] for end in (start, stop))
     ends = [[max(-REACH, min(REACH, v)) for v in end] for end in (start, stop)]
     bits = [random.randint(2, VECTOR) for _ in range(2)]
     values = [max(-bench.high(VECTOR), bench.signed(random.getrandbits(n), n)) for n in bits]
