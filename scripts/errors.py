@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 
 from raydix import stress, stress_polynomials, stress_rays, stress_spirals
-from raydix.blocks import write_table
+from raydix.blocks import show_table, write_table
 from raydix.chords import chord_quads
 from raydix.chords_spiral import random_spiral
 from raydix.compile_spiral import needs_general
@@ -140,12 +139,7 @@ def main() -> int:
         for row, bad in make(count, args.seed):
             rows.append(text(row))
             refuted += [row[0]] if bad else []
-    table = Table(title=f"bounds and worst cases, seed {args.seed}")
-    for name in HEADER:
-        table.add_column(name, justify="left" if name in HEADER[:2] else "right")
-    for row in rows:
-        table.add_row(*row)
-    Console(width=None if sys.stdout.isatty() else 140).print(table)
+    show_table(f"bounds and worst cases, seed {args.seed}", HEADER, rows, HEADER[:2], 140)
     if args.write:
         write_table(ROOT / "docs" / "error-analysis.md", "errors", HEADER, rows)
     if refuted:

@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 
 from raydix import spiral
-from raydix.blocks import write_table
+from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import box_of, chords_through, compile_chords, random_spiral, slopes, trace_spiral
 from raydix.compile_spiral import needs_general
 from raydix.config import Config
@@ -159,12 +158,8 @@ def main() -> int:
         if getattr(args, name) < least:
             parser.error(f"--{name}: found {getattr(args, name)}; allowed: {least} or more")
     made = list(rows(args.spirals, args.chords, args.seed, args.processes))
-    table = Table(title=f"{args.spirals} random spirals, {args.chords:,} chords of each kind, seed {args.seed}")
-    for column in HEADER:
-        table.add_column(column, justify="left" if column in ("chords", "rule") else "right")
-    for row in made:
-        table.add_row(*row)
-    Console(width=None if sys.stdout.isatty() else 190).print(table)
+    title = f"{args.spirals} random spirals, {args.chords:,} chords of each kind, seed {args.seed}"
+    show_table(title, HEADER, made, ("chords", "rule"), 190)
     if args.write:
         write_table(PAGE, "spirals", HEADER, made)
     return int(any(row[7:10] != ["0", "0", "0"] for row in made if row[1] == "certified"))

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 from rich.progress import Progress
-from rich.table import Table
 
 from raydix import stress, stress_spirals
-from raydix.blocks import write_table
+from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import compile_chords, trace_spiral
 from raydix.compile_spiral import needs_general
 from raydix.config import Config
@@ -156,12 +155,7 @@ def main() -> int:
         exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
         judged = stress.judge_spiral(surface, compiled, trace_spiral(compiled, c), exact, clearance, c)
         failed |= bool(judged.failed.any())
-    table = Table(title=f"search, seed {args.seed}")
-    for name in HEADER:
-        table.add_column(name, justify="left" if name == "search" else "right")
-    for row in rows:
-        table.add_row(*row)
-    Console(width=None if sys.stdout.isatty() else 120).print(table)
+    show_table(f"search, seed {args.seed}", HEADER, rows, ("search",), 120)
     if args.write:
         CASES.write_text(toml(items, spirals))
         write_table(ROOT / "docs" / "stress.md", "search", HEADER, rows)

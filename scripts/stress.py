@@ -12,10 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from rich.console import Console
 from rich.progress import Progress
-from rich.table import Table
 
 from raydix import stress, stress_spirals
-from raydix.blocks import write_table
+from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import compile_chords, trace_spiral
 from raydix.compile_spiral import Oversize, needs_general
 from raydix.config import Config
@@ -173,16 +172,6 @@ def cells(name: str, rule: str, r: dict) -> list[str]:
     return [name, rule, *(f"{n:,}" for n in r["counts"]), *figures, *most]
 
 
-def show(title: str, header, rows) -> None:
-    """Print a table."""
-    table = Table(title=title)
-    for column in header:
-        table.add_column(column, justify="left" if column in ("category", "rule", "n1, K, W, D") else "right")
-    for row in rows:
-        table.add_row(*row)
-    Console(width=None if sys.stdout.isatty() else 240).print(table)
-
-
 def total(joined: dict, rule: str) -> list[str]:
     """A row of all categories."""
     parts = [r for (_, other), r in joined.items() if other == rule]
@@ -212,7 +201,8 @@ def main() -> int:
     joined = collect(jobs(args.rays, args.seed, names, reference), args.jobs)
     rows = [cells(name, rule, joined[name, rule]) for rule in ("certified", "paper") for name in names]
     rows += [total(joined, rule) for rule in ("certified", "paper")]
-    show(f"n1 = 3, K = 8, W = 36, D = 4; seed {args.seed}", HEADER, rows)
+    left = ("category", "rule", "n1, K, W, D")
+    show_table(f"n1 = 3, K = 8, W = 36, D = 4; seed {args.seed}", HEADER, rows, left, 240)
     failed = sum(joined[name, "certified"]["counts"][2:5].sum() for name in names)
     limit_rows = []
     if not args.only:
@@ -221,7 +211,7 @@ def main() -> int:
             part = collect(jobs(args.rays // 40, args.seed, LIMIT_CATEGORIES, config, False), args.jobs, True)
             limit_rows.append([f"{n1}, {steps}, {width}, {degree}", *total(part, "certified")[1:]])
             failed += sum(r["counts"][2:5].sum() for (_, rule), r in part.items() if rule == "certified")
-        show("limits of the parameters", ("n1, K, W, D", *HEADER[1:]), limit_rows)
+        show_table("limits of the parameters", ("n1, K, W, D", *HEADER[1:]), limit_rows, left, 240)
     pictures = IMAGES if args.write else args.pictures
     if pictures:
         pictures.mkdir(parents=True, exist_ok=True)

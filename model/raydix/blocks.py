@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generated blocks in files that are otherwise written by hand."""
 
-from collections.abc import Sequence
+import sys
+from collections.abc import Container, Sequence
 from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
 
 
 def replace_block(path: Path, begin: str, end: str, body: str, write: bool) -> bool:
@@ -31,3 +35,15 @@ def write_table(path: Path, name: str, header: Sequence[str], rows: Sequence[Seq
     """Replace the block ``name`` of a Markdown file by a table."""
     begin, end = f"<!-- BEGIN generated: {name} -->\n", f"<!-- END generated: {name} -->\n"
     replace_block(path, begin, end, "\n" + markdown_table(header, rows) + "\n", True)
+
+
+def show_table(
+    title: str, header: Sequence[str], rows: Sequence[Sequence[str]], left: Container[str], width: int
+) -> None:
+    """Print a table; the columns named in ``left`` are left-aligned. ``width``: where the output is no terminal."""
+    table = Table(title=title)
+    for column in header:
+        table.add_column(column, justify="left" if column in left else "right")
+    for row in rows:
+        table.add_row(*row)
+    Console(width=None if sys.stdout.isatty() else width).print(table)
