@@ -52,6 +52,12 @@ package rdx_pkg;
   localparam int unsigned LengthIterations = 16;
   // of the distance from the axis, each with bounds of its own
   localparam int unsigned Zones = 16;
+  // u1p16: linear colour, opacity, light: 0 to 1 inclusive
+  localparam int unsigned UnitWidth = 17;
+  // s1p17: component of a normal or of a constant of a material
+  localparam int unsigned NormalWidth = 18;
+  // places for the constants of a material, 32 bits each
+  localparam int unsigned MaterialWords = 64;
   // constants of a vector-sum surface
   localparam int unsigned FormWords = 77;
   // END generated
@@ -122,6 +128,42 @@ package rdx_pkg;
     coord_t [2:0] point;
     steps_t       steps;    // steps that the ray has taken so far
   } hit_t;
+
+  // What may be skipped; each bit off leaves the picture as it is.
+  typedef struct packed {
+    logic early;      // items that are done leave the ring at once
+    logic depth;      // rays, and cells, behind the nearest opaque hit so far
+    logic rootless;   // rays on whose segment no root can be
+    logic boxes;      // cells beyond a face of the box
+    logic rectangle;  // pixels outside of a surface's screen rectangle
+  } skip_t;
+
+  // Shading: linear intensities, and components of normals.
+  typedef logic [UnitWidth-1:0] unit_t;
+  typedef logic signed [NormalWidth-1:0] normal_t;
+  typedef logic [$clog2(MaterialWords)-1:0] constant_t;  // number of a material's constant
+
+  // A layer of a pixel on its way to the shading, or a pixel without one.
+  typedef struct packed {
+    logic         shade;    // 0: nothing was hit
+    logic         first;    // the pixel's first
+    logic         last;     // the pixel's last
+    logic         enters;   // the indicator is positive before the hit
+    surface_t     surface;
+    coord_t [2:0] point;
+  } layer_t;
+
+  // What holds for all of a frame.
+  typedef struct packed {
+    pixel_t      last_x;      // columns less one
+    pixel_t      last_y;      // rows less one
+    surface_t    last_slot;   // descriptors less one
+    logic        empty;       // there is no descriptor
+    logic [4:0]  k_stop;      // steps to a hit, 1 to K
+    skip_t       skip;
+    unit_t       ambient;
+    unit_t [2:0] background;  // [0] red, [1] green, [2] blue
+  } frame_t;
 
   // Latency of rdx_select: one clock for the certified rule; the paper rule needs one for magnitudes, one for
   // each two levels of its comparator tree over J+1 values, and one for the second differences.

@@ -98,7 +98,30 @@ FORM = (
     Field("radius_growth", "s6p30", "K times the growth of the centre curve's radius in a turn"),
     Field("tube_growth", "s6p30", "K^2 times the growth of the tube's radius in a turn"),
 )
+# What shading knows of a surface; gradients are in scaled coordinates. A vector sum has the constants of its
+# gradient (swirl.py) where an algebraic surface has those of its quadrics.
+MATERIAL = (
+    Field(
+        "light",
+        "s1p17",
+        "matrix T by rows: gradient in scaled coordinates to a basis whose third axis is the light's",
+        9,
+    ),
+    Field("color", "u1p16", "red, green, blue, linear", 3),
+    Field("opacity", "u1p16", "1 is opaque"),
+    Field("vector", "u1p0", "1: a vector sum"),
+    Field("q3_matrix", "s1p17", "of Q3: 2 xx, 2 yy, 2 zz, xy, yz, zx", 6),
+    Field("q3_linear", "s1p17", "of Q3: x, y, z", 3),
+    Field("q1_matrix", "s1p17", "of Q1", 6),
+    Field("q1_linear", "s1p17", "of Q1", 3),
+    Field("q1_constant", "s1p17", "of Q1"),
+    Field("q2_matrix", "s1p17", "of Q2", 6),
+    Field("q2_linear", "s1p17", "of Q2", 3),
+    Field("q2_constant", "s1p17", "of Q2"),
+)
+MATERIAL_WORDS = 64  # places for the constants of a material
 FORM_INDEX = {field.name: sum(f.count for f in FORM[:i]) for i, field in enumerate(FORM)}
+MATERIAL_INDEX = {field.name: sum(f.count for f in MATERIAL[:i]) for i, field in enumerate(MATERIAL)}
 FORM_WORDS = sum(field.count for field in FORM)
 VECTOR_WORDS = HEADER_WORDS + 3 * COORD_LANES + FORM_WORDS
 
@@ -127,6 +150,9 @@ TABLE = (
     Constant("LengthIterations", LENGTH_ITERATIONS, "", "of the CORDICs that find a length only"),
     Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor", False),
     Constant("Zones", ZONES, "", "of the distance from the axis, each with bounds of its own"),
+    Constant("UnitWidth", 17, "u1p16", "linear colour, opacity, light: 0 to 1 inclusive"),
+    Constant("NormalWidth", 18, "s1p17", "component of a normal or of a constant of a material"),
+    Constant("MaterialWords", MATERIAL_WORDS, "", "places for the constants of a material, 32 bits each"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
     Constant("VectorWords", VECTOR_WORDS, "", "words of a descriptor of a vector-sum surface", False),
     Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2", False),
