@@ -252,7 +252,14 @@ _SEARCH = (("paper", 1), ("roots", formats.ROOTS_WIDTH), ("box", formats.BOX_WID
 RAY = Struct(*_PLACE, *_SEARCH)
 ENDS = Struct(*_ENDS)
 HIT = Struct(
-    *_PLACE, ("hit", 1), ("last", 1), ("t", 32), ("depth", _DEPTH), ("point", _COORD, 3), ("steps", formats.STEPS_WIDTH)
+    *_PLACE,
+    ("hit", 1),
+    ("last", 1),
+    ("t", 32),
+    ("depth", _DEPTH),
+    ("point", _COORD, 3),
+    ("enters", 1),
+    ("steps", formats.STEPS_WIDTH),
 )
 FORM = Struct(
     *((f.name, -f.width if f.token[0] == "s" else f.width, *([f.count] if f.count > 1 else [])) for f in formats.FORM)
@@ -271,7 +278,7 @@ def form_fields(words):
 
 def control(digits):
     """The struct RDX_CONTROL_T(N) of ``rtl/rdx_types.svh``."""
-    flags = ("level", 5), ("steps", formats.STEPS_WIDTH), ("follow", 1), ("pending", 1)
+    flags = ("level", 5), ("steps", formats.STEPS_WIDTH), ("follow", 1), ("pending", 1), ("enters", 1)
     return Struct(("status", 3), *_SEARCH, *flags, ("t", digits), ("t_min", digits), ("t_next", digits))
 
 

@@ -35,7 +35,7 @@ RECORD = np.dtype(
         ("surface", "u1"),
         ("hit", "u1"),
         ("last", "u1"),
-        ("spare", "u1"),
+        ("enters", "u1"),
         ("t", "<u4"),
         ("depth", "<i4"),
         ("point", "<i4", 3),
@@ -166,7 +166,7 @@ def _collect(compiled: CompiledFrame, records: np.ndarray) -> list[SurfaceHits]:
         rank = np.arange(at.size) - np.searchsorted(at, at)
         if (rank >= roots).any():
             raise RtlError(f"surface {surface.index}: a ray has more than {roots} roots")
-        for name in ("t", "depth", "point"):
+        for name in ("t", "depth", "point", "enters"):
             array = getattr(hits, name)
             array.reshape(rows * columns, roots, *array.shape[3:])[at, rank] = mine[name][found][order]
         last = mine["last"] == 1
