@@ -54,6 +54,7 @@ ANGLE_ITERATIONS = 28
 ANGLE_STILL = 20
 LENGTH_ITERATIONS = 16
 ZONES = 16
+UNIT_FRAC = 16
 LARGEST_ITERATIONS = 32  # of a CORDIC
 
 
@@ -150,7 +151,7 @@ TABLE = (
     Constant("LengthIterations", LENGTH_ITERATIONS, "", "of the CORDICs that find a length only"),
     Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor", False),
     Constant("Zones", ZONES, "", "of the distance from the axis, each with bounds of its own"),
-    Constant("UnitWidth", 17, "u1p16", "linear colour, opacity, light: 0 to 1 inclusive"),
+    Constant("UnitWidth", 1 + UNIT_FRAC, "u1p16", "linear colour, opacity, light: 0 to 1 inclusive"),
     Constant("NormalWidth", 18, "s1p17", "component of a normal or of a constant of a material"),
     Constant("MaterialWords", MATERIAL_WORDS, "", "places for the constants of a material, 32 bits each"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
