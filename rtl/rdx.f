@@ -36,4 +36,14 @@ rdx_product.sv
 rdx_ends.sv
 rdx_algebraic.sv
 rdx_vector.sv
+rdx_constant.sv
+rdx_fill.sv
+rdx_matrix.sv
+rdx_quadric.sv
+rdx_gradient.sv
+rdx_rsqrt.sv
+rdx_light.sv
+rdx_blend.sv
+rdx_srgb.sv
+rdx_shade.sv
 rdx_core.sv

@@ -6,7 +6,6 @@ import numpy as np
 from raydix.hits import FrameHits
 from raydix.scene import Scene
 from raydix.shade import _basis, _normals
-from raydix.surfaces import normal_direction
 
 
 def encoded(linear: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Constants of the materials: what shading knows of a surface. Source: docs/processor.md, "Shading".
 
-Computed with 256-bit floating point from the scene, like the descriptors (``compile.py``), and rounded once into a word.
+Computed with 256-bit floating point from the scene, like the descriptors (``compile.py``), and rounded once.
 The places are those of ``formats.MATERIAL``; the gradient is taken in scaled coordinates p, local = origin + unit*p.
 """
 
