@@ -95,7 +95,7 @@ module rdx_advance #(
     else if (tag_qq.kind == RowLane && !wanted) load_o.index = 7'd3;  // nobody's; only the mark counts
   end
   assign busy_o = valid_q || valid_qq || write_q;
-  wire unused = &{1'b0, ask_i.word};
+  wire unused = &{1'b0, ask_i.word, tag_qq};
 
 endmodule
 

@@ -58,6 +58,8 @@ module rdx_audit #(
   wire pixel_t x1 = table_i[32+:PixelWidth];
   wire pixel_t y1 = table_i[48+:PixelWidth];
 
+  wire unused = &{1'b0, table_i};
+
   error_e error;
   always_comb begin
     error = ErrorNone;

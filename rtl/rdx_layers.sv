@@ -165,13 +165,14 @@ module rdx_layers #(
       depth_t depth;
     } limit_t;
     limit_t limits[Banks], limit_d;
+    entry_t written[Layers];
+    always_comb for (int unsigned i = 0; i < Layers; i++) written[i] = write_word_q[i*$bits(entry_t)+:$bits(entry_t)];
     bank_t look_q;
     always_comb begin
       limit_d = '0;
       for (int unsigned i = 0; i < Layers; i++) begin
-        automatic entry_t entry = write_word_q[i*$bits(entry_t)+:$bits(entry_t)];
         if (32'(write_word_q[Layers*$bits(entry_t)+:$bits(count_t)]) == i + 1)
-          limit_d = '{valid: entry.opaque, depth: entry.depth};
+          limit_d = '{valid: written[i].opaque, depth: written[i].depth};
       end
     end
     for (genvar b = 0; b < Banks; b++) begin : gen_bank

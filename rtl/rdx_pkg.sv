@@ -54,6 +54,8 @@ package rdx_pkg;
   localparam int unsigned Zones = 16;
   // u1p16: linear colour, opacity, light: 0 to 1 inclusive
   localparam int unsigned UnitWidth = 17;
+  // fractional bits of such a number
+  localparam int unsigned UnitFrac = 16;
   // s1p17: component of a normal or of a constant of a material
   localparam int unsigned NormalWidth = 18;
   // places for the constants of a material, 32 bits each
@@ -132,6 +134,7 @@ package rdx_pkg;
 
   // Types of the processor around the rings
   `include "rdx_frame.svh"
+  `include "rdx_material.svh"
 
   // Latency of rdx_select: one clock for the certified rule; the paper rule needs one for magnitudes, one for
   // each two levels of its comparator tree over J+1 values, and one for the second differences.
@@ -185,10 +188,6 @@ package rdx_pkg;
   // Largest shift of the step's normaliser, 2^b - 1: it covers a double root, which loses 2*n1 bits a step.
   function automatic int unsigned norm_limit(int unsigned n1);
     return (1 << $clog2(2 * n1 + 1)) - 1;
-  endfunction
-
-  function automatic int unsigned shade_latency(int unsigned d, int unsigned vecsum);
-    return 8;
   endfunction
 
 endpackage

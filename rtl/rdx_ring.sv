@@ -84,12 +84,9 @@ module rdx_ring #(
     );
   end
 
-  logic [5:0] running;
-  always_comb begin
-    running = '0;
-    for (int unsigned u = 0; u < U; u++) running = running + 6'(control[u].status == Run);
-  end
-  always_ff @(posedge clk_i) steps_o <= running;
+  logic [U-1:0] runs;
+  always_comb for (int unsigned u = 0; u < U; u++) runs[u] = control[u].status == Run;
+  always_ff @(posedge clk_i) steps_o <= 6'($countones(runs));
 
   // ---- what the items began with ----
   typedef struct packed {

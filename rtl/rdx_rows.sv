@@ -191,6 +191,7 @@ module rdx_rows #(
       .ask_o
   );
 
+  wire unused = &{1'b0, frame_i};
   assign busy_o = state_q != Rest;
   assign slot_o = slot_q;
   assign place_o = state_q == Audit ? {6'd0, second_q} : place;

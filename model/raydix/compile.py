@@ -333,7 +333,9 @@ def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix
     make = _vector_sum if surface.type == "spiral" else _algebraic
     flags, lanes, origin, unit = make(scene, config, index, surface, h, e, low, high, cut, columns, rows)
     roots = roots_wanted(surface, config)
-    head = index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | flags | (surface.opacity == 1) << OPAQUE_AT
+    head = (
+        index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | flags | (surface.opacity == 1) << OPAQUE_AT
+    )
     depth = [int(mp.nint(z * depth_factor)) for z in (near, far)]
     words = [head, x0 | y0 << 16 | x1 << 32 | y1 << 48, depth[0] | depth[1] << DEPTH_WIDTH, *lanes]
     if any(abs(w) >= 1 << 63 for w in words):

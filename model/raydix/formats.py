@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Number formats and field widths: the one table.
 
-The blocks between markers in ``rtl/rdx_pkg.sv``, ``rdx_form.svh``, ``rdx_form.sv``, ``rdx_cordic.sv`` (its angles) and
-``docs/number-formats.md`` are generated from here:
+The blocks between markers in ``rtl/rdx_pkg.sv``, ``rdx_form.svh``, ``rdx_form.sv``, ``rdx_cordic.sv`` (its angles),
+``rdx_rsqrt.sv``, ``rdx_srgb.sv`` (their tables) and ``docs/number-formats.md`` are generated from here:
 ``python -m raydix.formats --write``; without ``--write`` the exit status tells whether they agree.
 
 A format token is ``s<I>p<F>`` (signed, ``I`` integer bits with the sign, ``F`` fractional) or ``u<I>p<F>``.
@@ -10,6 +10,7 @@ A format token is ``s<I>p<F>`` (signed, ``I`` integer bits with the sign, ``F`` 
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -54,6 +55,7 @@ ANGLE_ITERATIONS = 28
 ANGLE_STILL = 20
 LENGTH_ITERATIONS = 16
 ZONES = 16
+UNIT_FRAC = 16
 LARGEST_ITERATIONS = 32  # of a CORDIC
 
 
@@ -150,7 +152,8 @@ TABLE = (
     Constant("LengthIterations", LENGTH_ITERATIONS, "", "of the CORDICs that find a length only"),
     Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor", False),
     Constant("Zones", ZONES, "", "of the distance from the axis, each with bounds of its own"),
-    Constant("UnitWidth", 17, "u1p16", "linear colour, opacity, light: 0 to 1 inclusive"),
+    Constant("UnitWidth", 1 + UNIT_FRAC, "u1p16", "linear colour, opacity, light: 0 to 1 inclusive"),
+    Constant("UnitFrac", UNIT_FRAC, "", "fractional bits of such a number"),
     Constant("NormalWidth", 18, "s1p17", "component of a normal or of a constant of a material"),
     Constant("MaterialWords", MATERIAL_WORDS, "", "places for the constants of a material, 32 bits each"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
@@ -208,6 +211,49 @@ def angle_table() -> str:
     return f"  localparam logic [AngleWidth-1:0] Angles[{LARGEST_ITERATIONS}] = '{{\n{text}\n  }};\n"
 
 
+def rom(name: str, width: int, entries: Sequence[int], of_a_line: int) -> str:
+    """A table as one SystemVerilog constant, its last entry first; ``of_a_line`` entries make a literal."""
+    bits = of_a_line * width
+    lines = []
+    for at in range(len(entries) - of_a_line, -1, -of_a_line):
+        value = sum(int(entry) << (width * i) for i, entry in enumerate(entries[at : at + of_a_line]))
+        lines.append(f"    {bits}'h{value:0{bits // 4}x}")
+    text = ",\n".join(lines)
+    return f"  localparam logic [{len(entries) - 1}:0][{width - 1}:0] {name} = {{\n{text}\n  }};\n"
+
+
+def root_table() -> str:
+    """The table of ``rtl/rdx_rsqrt.sv``: start, then fall."""
+    from .rsqrt import BASE_BITS, ENTRIES, FALL_BITS
+
+    return rom("Table", BASE_BITS + FALL_BITS, [base << FALL_BITS | fall for base, fall in ENTRIES], 8)
+
+
+def code_table() -> str:
+    """The table of ``rtl/rdx_srgb.sv``."""
+    from .srgb import CODES
+
+    return rom("Codes", 8, CODES, 32)
+
+
+def material_places() -> str:
+    """Where a material's constants begin, as SystemVerilog localparams."""
+    lines = []
+    for field in MATERIAL:
+        name = "".join(part.capitalize() for part in field.name.split("_"))
+        lines += [
+            f"// {field.token}: {field.meaning}",
+            f"localparam int unsigned At{name} = {MATERIAL_INDEX[field.name]};",
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def material_table() -> str:
+    """The constants of a material as a Markdown table."""
+    rows = [[str(MATERIAL_INDEX[f.name]), f"`{f.name}`", str(f.count), f"`{f.token}`", f.meaning] for f in MATERIAL]
+    return markdown_table(["first", "constant", "count", "format", "meaning"], rows)
+
+
 def form_table() -> str:
     """The constants of a vector-sum surface as a Markdown table."""
     rows = [[str(FORM_INDEX[f.name]), f"`{f.name}`", str(f.count), f"`{f.token}`", f.meaning] for f in FORM]
@@ -234,7 +280,11 @@ def drift(write: bool = False) -> list[Path]:
         (ROOT / "rtl" / "rdx_form.svh", f"// {BEGIN}: form\n", f"// {END}: form\n", form_struct()),
         sv("rdx_cordic.sv", ": angles", angle_table()),
         (ROOT / "rtl" / "rdx_form.sv", f"      // {BEGIN}: form\n", f"      // {END}: form\n", form_loader()),
+        (ROOT / "rtl" / "rdx_material.svh", f"// {BEGIN}: material\n", f"// {END}: material\n", material_places()),
+        sv("rdx_rsqrt.sv", ": roots", root_table()),
+        sv("rdx_srgb.sv", ": codes", code_table()),
         md("", markdown()),
+        md(": material", material_table()),
         md(": form", form_table()),
     )
     return sorted({path for path, begin, end, body in targets if replace_block(path, begin, end, body, write)})

@@ -1,17 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hits to a picture: order by depth, normals, light, transparency. The same code for the golden model and the RTL."""
+"""Hits to a picture: layers, light, blending, sRGB (mirrors ``rtl/rdx_shade.sv``), and float normals for the files.
+
+The same code for the golden model and the RTL. Colours are integers: docs/processor.md, "Shading".
+"""
 
 from dataclasses import dataclass
 
 import mpmath as mp
 import numpy as np
 
+from .blend import add_layer, finish
 from .compile import PRECISION, camera_of
 from .config import Config
-from .formats import COORD_FRAC
-from .hits import FrameHits, SurfaceHits
+from .formats import COORD_FRAC, MATERIAL_INDEX, MATERIAL_WORDS, UNIT_FRAC
+from .gradient import CONSTANT_FRAC, gradient
+from .hits import FrameHits
+from .kernel import kernel, zeros
+from .layers import Layers, layers_of
+from .light import color, cosine
+from .material import material_words
 from .scene import Scene
+from .srgb import srgb
 from .surfaces import normal_direction
+
+ONE = 1 << UNIT_FRAC
+LAYERS = 4  # of a pixel, if not asked for otherwise
+AT_OPACITY, AT_VECTOR = (MATERIAL_INDEX[name] for name in ("opacity", "vector"))
+WORK = 21  # words of room for a pixel: gradient (12), normal, colour, sum
 
 
 @dataclass
@@ -22,9 +37,10 @@ class Frame:
     t        int64 (H, W), digits of the visible hit, -1 = miss
     surface  int16 (H, W), number of the visible surface, -1 = miss
     normal   float32 (H, W, 3), unit length in world space, towards the viewer, 0 = miss
-    linear   float32 (H, W, 3), linear colour
+    linear   float32 (H, W, 3), linear colour, multiples of 2^-16
     rgb      uint8 (H, W, 3), sRGB-encoded colour
     ulp      float64 (surfaces of the scene), depth of one unit in the last place of t; nan if not in view
+    dropped  int64 (H, W), layers that had no place
     hits     what the core gave back
     """
 
@@ -35,34 +51,14 @@ class Frame:
     linear: np.ndarray
     rgb: np.ndarray
     ulp: np.ndarray
+    dropped: np.ndarray
     hits: FrameHits
 
 
-def srgb(linear: np.ndarray) -> np.ndarray:
-    """Linear colour in [0, 1] to sRGB-encoded uint8 (IEC 61966-2-1)."""
-    v = np.clip(linear.astype(np.float64), 0, 1)
-    encoded = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
-    return np.rint(encoded * 255).astype(np.uint8)
-
-
-@dataclass
-class _Layer:
-    """Hits of a frame as flat vectors of N, ordered by pixel, then from front to back."""
-
-    pixel: np.ndarray
-    surface: np.ndarray
-    depth: np.ndarray
-    t: np.ndarray
-    normal: np.ndarray
-    shade: np.ndarray  # (N, 3) linear colour
-    opacity: np.ndarray
-    rank: np.ndarray  # 0 for the nearest hit of a pixel, 1 for the next, …
-
-
-def _normals(scene: Scene, hits: SurfaceHits, where, basis, columns, rows) -> np.ndarray:
+def _normals(scene: Scene, hits, point, basis, columns, rows) -> np.ndarray:
     """Unit normals (N, 3) in world space, towards the viewer; straight to the viewer where the gradient vanishes."""
     surface = scene.surfaces[hits.surface.index]
-    local = np.array(hits.surface.origin) + hits.point[where] / float(1 << COORD_FRAC) * np.array(hits.surface.unit)
+    local = _local(hits.surface, point)
     normal = normal_direction(surface, local) @ np.linalg.inv(np.array(surface.matrix, np.float64))
     forward, right, up, pixel, width, height = basis
     ray = (
@@ -77,6 +73,11 @@ def _normals(scene: Scene, hits: SurfaceHits, where, basis, columns, rows) -> np
     return np.where(away[:, None], -normal, normal)
 
 
+def _local(surface, point) -> np.ndarray:
+    """Points (N, 3) of the hit record in local coordinates, float64."""
+    return np.array(surface.origin) + point / float(1 << COORD_FRAC) * np.array(surface.unit)
+
+
 def _basis(scene: Scene):
     """The camera in float64: forward, right, up, slope per pixel, width, height."""
     with mp.workprec(PRECISION):
@@ -85,80 +86,111 @@ def _basis(scene: Scene):
         return (*vectors, float(camera.pixel), camera.width, camera.height)
 
 
-def _layers(scene: Scene, frame: FrameHits, digits: int) -> _Layer:
-    """All hits of the frame, shaded and ordered; equal depth words go to the lower surface number."""
-    basis = _basis(scene)
-    light = np.array(scene.light.direction, np.float64)
-    light /= np.linalg.norm(light)
-    parts = []
+def units(values) -> np.ndarray:
+    """Numbers from 0 to 1 as u1p16."""
+    return np.array([int(mp.nint(mp.ldexp(mp.mpf(v), UNIT_FRAC))) for v in values], zeros(0).dtype)
+
+
+def materials_of(scene: Scene, frame: FrameHits) -> np.ndarray:
+    """The materials (surfaces of the scene, 64) of those in view."""
+    materials = zeros(len(scene.surfaces) * MATERIAL_WORDS).reshape(-1, MATERIAL_WORDS)
     for hits in frame.surfaces:
-        where = np.nonzero(hits.t >= 0)
-        x0, y0, _, _ = hits.surface.rect
-        rows, columns = where[0] + y0, where[1] + x0
-        normal = _normals(scene, hits, where, basis, columns, rows)
-        surface = scene.surfaces[hits.surface.index]
-        lambert = np.maximum(0, normal @ light)
-        level = scene.light.ambient + (1 - scene.light.ambient) * lambert
-        t = hits.t[where]
-        near, far = hits.surface.near, hits.surface.far
-        parts.append(
-            (
-                rows * frame.compiled.width + columns,
-                np.full(t.shape, hits.surface.index),
-                hits.depth[where],
-                where[2],
-                near + (t + 0.5) * 2.0**-digits * (far - near),
-                t,
-                normal,
-                level[:, None] * np.array(surface.color),
-                np.full(t.shape, float(surface.opacity)),
-            )
-        )
-    if not parts:
-        none = np.zeros(0, np.int64)
-        return _Layer(none, none, none, none, np.zeros((0, 3)), np.zeros((0, 3)), none, none)
-    pixel, index, word, root, depth, t, normal, shade, opacity = (np.concatenate(p) for p in zip(*parts, strict=True))
-    order = np.lexsort((root, index, word, pixel))
-    pixel = pixel[order]
-    first = np.searchsorted(pixel, pixel)
-    rank = np.arange(pixel.size) - first
-    return _Layer(pixel, index[order], depth[order], t[order], normal[order], shade[order], opacity[order], rank)
+        s = hits.surface
+        materials[s.index] = material_words(scene, scene.surfaces[s.index], s.origin, s.unit)
+    return materials
 
 
-def compose(scene: Scene, frame: FrameHits, config: Config) -> Frame:
+def _swirls(scene: Scene, frame: FrameHits, layers: Layers) -> np.ndarray:
+    """Gradients of the vector sums' layers in scaled coordinates, s1p17, at their places in the flat list of hits.
+
+    From float64, until the integer kernel of ``rdx_swirl`` takes this place.
+    """
+    used = np.zeros(layers.t.size, bool)
+    for layer in range(layers.index.shape[1]):
+        used[layers.index[layers.count > layer, layer]] = True
+    out, base = np.zeros((layers.t.size, 3), np.int64), 0
+    for hits in frame.surfaces:
+        if hits.surface.is_vector_sum:
+            at = base + np.nonzero(used[base : base + hits.t.size])[0]
+            surface = scene.surfaces[hits.surface.index]
+            steep = normal_direction(surface, _local(hits.surface, layers.point[at])) * hits.surface.unit
+            largest = np.abs(steep).max(axis=1, keepdims=True, initial=0)
+            out[at] = np.rint(steep / np.where(largest > 0, largest, 1) * ((1 << CONSTANT_FRAC) - 1))
+        base += hits.t.size
+    return out
+
+
+@kernel
+def _paint(count, surfaces, index, points, enters, swirls, materials, ambient, background, degree, work, linear, rgb):
+    """Linear intensities (P, 3), u1p16, and codes of P pixels from their layers."""
+    room, shade, total = work[:15], work[15:18], work[18:]
+    for pixel in range(count.size):
+        through = ONE
+        for channel in range(3):
+            total[channel] = 0
+        for layer in range(count[pixel]):
+            material, hit = materials[surfaces[pixel, layer]], index[pixel, layer]
+            if material[AT_VECTOR]:
+                for axis in range(3):
+                    room[axis] = int(swirls[hit, axis])
+            else:
+                for axis in range(3):
+                    room[12 + axis] = int(points[hit, axis])
+                gradient(material, room[12:], room, degree)
+            cos = cosine(material, room, enters[hit], room[12:])
+            color(material, ambient, cos, shade)
+            through = add_layer(total, through, shade, material[AT_OPACITY])
+        finish(total, through, background)
+        for channel in range(3):
+            linear[pixel, channel] = total[channel]
+            rgb[pixel, channel] = srgb(total[channel])
+
+
+def paint(scene: Scene, frame: FrameHits, layers: Layers) -> tuple[np.ndarray, np.ndarray]:
+    """Linear intensities (P, 3), u1p16 in int32, and sRGB codes (P, 3), uint8."""
+    pixels = layers.count.size
+    linear, rgb = np.empty((pixels, 3), np.int32), np.empty((pixels, 3), np.uint8)
+    vector = any(hits.surface.is_vector_sum for hits in frame.surfaces)
+    swirls = _swirls(scene, frame, layers) if vector else np.zeros((0, 3), np.int64)
+    background = units(scene.background.color)
+    ambient = int(units([scene.light.ambient])[0])
+    _paint(layers.count, layers.surface, layers.index, layers.point, layers.enters, swirls, materials_of(scene, frame),
+           ambient, background, 4, zeros(WORK), linear, rgb)  # fmt: skip
+    return linear, rgb
+
+
+def compose(scene: Scene, frame: FrameHits, config: Config, layers: int = LAYERS) -> Frame:
     """The picture of ``frame``: nearest hits, normals, and colours composited from front to back.
 
-    Shade = ambient + (1 - ambient) * max(0, n·l), times the surface's colour; n towards the viewer.
+    layers  how many hits of a pixel are kept; the farther ones are dropped and counted
     """
     height, width = frame.compiled.height, frame.compiled.width
-    layers = _layers(scene, frame, config.digits)
-    front = layers.rank == 0
-    at = layers.pixel[front]
+    near = layers_of(scene, frame, layers)
+    at = np.nonzero(near.count)[0]
+    index, surface = near.index[at, 0], near.surface[at, 0]
+    t = near.t[index]
 
     def plane(value, fill, dtype, *tail):
         out = np.full((height * width, *tail), fill, dtype)
-        out[at] = value[front]
+        out[at] = value
         return out.reshape(height, width, *tail)
 
-    linear = np.zeros((height * width, 3))
-    through = np.ones((height * width, 1))
-    for rank in range(int(layers.rank.max()) + 1 if layers.rank.size else 0):
-        now = layers.rank == rank
-        pixel, opacity = layers.pixel[now], layers.opacity[now][:, None]
-        linear[pixel] += through[pixel] * opacity * layers.shade[now]
-        through[pixel] *= 1 - opacity
-    linear += through * np.array(scene.background.color)
-    linear = linear.reshape(height, width, 3).astype(np.float32)
-    ulp = np.full(len(scene.surfaces), np.nan)
-    for s in frame.compiled.surfaces:
-        ulp[s.index] = (s.far - s.near) * 2.0**-config.digits
+    ulp, start = np.full(len(scene.surfaces), np.nan), np.zeros(len(scene.surfaces))
+    normal, basis = np.zeros((at.size, 3)), _basis(scene)
+    for hits in frame.surfaces:
+        s = hits.surface
+        ulp[s.index], start[s.index] = (s.far - s.near) * 2.0**-config.digits, s.near
+        of = np.nonzero(surface == s.index)[0]
+        normal[of] = _normals(scene, hits, near.point[index[of]], basis, at[of] % width, at[of] // width)
+    linear, rgb = paint(scene, frame, near)
     return Frame(
-        plane(layers.depth, np.inf, np.float64),
-        plane(layers.t, -1, np.int64),
-        plane(layers.surface, -1, np.int16),
-        plane(layers.normal, 0, np.float32, 3),
-        linear,
-        srgb(linear),
+        plane(start[surface] + (t + 0.5) * ulp[surface], np.inf, np.float64),
+        plane(t, -1, np.int64),
+        plane(surface, -1, np.int16),
+        plane(normal, 0, np.float32, 3),
+        (linear.reshape(height, width, 3) / ONE).astype(np.float32),
+        rgb.reshape(height, width, 3),
         ulp,
+        near.dropped.reshape(height, width),
         frame,
     )
