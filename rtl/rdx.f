@@ -37,3 +37,5 @@ rdx_ends.sv
 rdx_algebraic.sv
 rdx_vector.sv
 rdx_core.sv
+rdx_check.sv
+rdx_table.sv

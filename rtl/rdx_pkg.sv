@@ -129,41 +129,8 @@ package rdx_pkg;
     steps_t       steps;    // steps that the ray has taken so far
   } hit_t;
 
-  // What may be skipped; each bit off leaves the picture as it is.
-  typedef struct packed {
-    logic early;      // items that are done leave the ring at once
-    logic depth;      // rays, and cells, behind the nearest opaque hit so far
-    logic rootless;   // rays on whose segment no root can be
-    logic boxes;      // cells beyond a face of the box
-    logic rectangle;  // pixels outside of a surface's screen rectangle
-  } skip_t;
-
-  // Shading: linear intensities, and components of normals.
-  typedef logic [UnitWidth-1:0] unit_t;
-  typedef logic signed [NormalWidth-1:0] normal_t;
-  typedef logic [$clog2(MaterialWords)-1:0] constant_t;  // number of a material's constant
-
-  // A layer of a pixel on its way to the shading, or a pixel without one.
-  typedef struct packed {
-    logic         shade;    // 0: nothing was hit
-    logic         first;    // the pixel's first
-    logic         last;     // the pixel's last
-    logic         enters;   // the indicator is positive before the hit
-    surface_t     surface;
-    coord_t [2:0] point;
-  } layer_t;
-
-  // What holds for all of a frame.
-  typedef struct packed {
-    pixel_t      last_x;      // columns less one
-    pixel_t      last_y;      // rows less one
-    surface_t    last_slot;   // descriptors less one
-    logic        empty;       // there is no descriptor
-    logic [4:0]  k_stop;      // steps to a hit, 1 to K
-    skip_t       skip;
-    unit_t       ambient;
-    unit_t [2:0] background;  // [0] red, [1] green, [2] blue
-  } frame_t;
+  // Types of the processor around the rings.
+  `include "rdx_frame.svh"
 
   // Latency of rdx_select: one clock for the certified rule; the paper rule needs one for magnitudes, one for
   // each two levels of its comparator tree over J+1 values, and one for the second differences.
