@@ -65,3 +65,5 @@ rdx_pixels.sv
 rdx_finish.sv
 rdx_count.sv
 rdx_render.sv
+rdx_check.sv
+rdx_table.sv

