@@ -56,11 +56,13 @@ rdx_ask.sv
 rdx_audit.sv
 rdx_advance.sv
 rdx_rows.sv
+rdx_feed.sv
 rdx_cast.sv
 rdx_tally.sv
 rdx_insert.sv
 rdx_layers.sv
 rdx_drain.sv
+rdx_lines.sv
 rdx_pixels.sv
 rdx_finish.sv
 rdx_count.sv
