@@ -8,8 +8,8 @@ With p the point, s2p16, and a quadric's matrix M, linear part m and constant c,
     q = w p / 2 + c          w rounded to s2p16; below 3*2*2/2 + 1 = 7: s4p33
     G = q1 g2 + q2 g1 + g3   g1, g2, q1, q2 rounded to s2p16, products s4p32; below 4 + 4 + 7 = 15: s5p33, 38 bits
 
-Each rounding is half up and saturates; compile scales g, w and q to be below 2. G is rounded half up to s5p27 and then scaled
-by a power of two so that the largest component fills 18 bits (floor).
+Each rounding is half up and saturates; compile scales g, w and q to be below 2. G is rounded half up to s5p27 and then
+scaled by a power of two so that the largest component fills 18 bits (floor).
 """
 
 from .formats import COORD_FRAC, MATERIAL_INDEX
