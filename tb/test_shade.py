@@ -157,7 +157,7 @@ def test_picture():
 
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda p: p.stem)
 def test_error(path):
-    """At most one code from the float64 picture in every pixel, linear within 2^-10; there is a difference where there is a hit."""
+    """At most one code from the float64 picture in every pixel, and linear within 2^-10."""
     scene = load_scene(path, 320, 240)
     config = Config(vecsum="general")
     frame = with_enters(scene, trace_golden(compile_scene(scene, config), config))
