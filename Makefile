@@ -10,7 +10,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats accuracy rules spirals errors stress search speed synth exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed synth exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -54,6 +54,9 @@ lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, gen
 
 formats: $(READY) ## write the constants of rtl/rdx_pkg.sv and docs/number-formats.md from their one table
 	@$(BIN)/python -m raydix.formats --write
+
+csr: $(READY) ## generate build/csr from rtl/rdx_csr.rdl: register block, C header, HTML, Python map; write docs/registers.md
+	@$(BIN)/python -m raydix.csr --write
 
 accuracy: $(READY) ## error against float64 roots of the ideal scene, of SCENE= or of every scene (ARGS=)
 	@$(BIN)/python scripts/accuracy.py $(if $(SCENE),"$(SCENE)") $(ARGS)

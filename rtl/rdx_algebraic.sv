@@ -16,27 +16,34 @@ module rdx_algebraic #(
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned HalveStages = (D + 1) / 2,
+    parameter bit Sift = 1'b0,  // rays that cannot have a hit do not enter the ring
     localparam int unsigned Quads = D == 4 ? 9 : 3
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
-    input  wire logic           ray_valid_i,
-    output logic                ray_ready_o,
-    input  wire rdx_pkg::ray_t  ray_i,
-    input  wire rdx_pkg::ends_t ends_i,
-    input  wire logic           quartic_i,
-    input  wire rdx_pkg::quad_t quads_i    [Quads],
-    output logic                hit_valid_o,
-    input  wire logic           hit_ready_i,
-    output rdx_pkg::hit_t       hit_o
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire logic                 ray_valid_i,
+    output logic                      ray_ready_o,
+    input  wire rdx_pkg::ray_t        ray_i,
+    input  wire rdx_pkg::ends_t       ends_i,
+    input  wire logic                 quartic_i,
+    input  wire rdx_pkg::quad_t       quads_i     [Quads],
+    output logic                      hit_valid_o,
+    input  wire logic                 hit_ready_i,
+    output rdx_pkg::hit_t             hit_o,
+    output logic                [5:0] steps_o,
+    input  wire logic                 rootless_i,
+    input  wire logic                 boxes_i,
+    output logic                      rootless_o,
+    output logic                      beyond_o,
+    output logic                      sifted_row_o
 );
   import rdx_pkg::*;
 
   localparam type segment_t = `RDX_SEGMENT_T(W, D);
 
-  logic ray_valid, ray_ready;
-  ray_t     ray;
-  segment_t segment;
+  logic ray_valid, ray_ready, wanted_valid, wanted_ready;
+  ray_t ray, wanted;
+  segment_t segment, wanted_segment;
   rdx_product #(
       .W(W),
       .D(D)
@@ -54,6 +61,35 @@ module rdx_algebraic #(
       .ray_o(ray),
       .segment_o(segment)
   );
+  if (Sift) begin : gen_sift
+    rdx_sift #(
+        .W(W),
+        .D(D)
+    ) u_sift (
+        .clk_i,
+        .rst_ni,
+        .rootless_i,
+        .boxes_i,
+        .ray_valid_i(ray_valid),
+        .ray_ready_o(ray_ready),
+        .ray_i(ray),
+        .segment_i(segment),
+        .ray_valid_o(wanted_valid),
+        .ray_ready_i(wanted_ready),
+        .ray_o(wanted),
+        .segment_o(wanted_segment),
+        .rootless_o,
+        .beyond_o,
+        .row_o(sifted_row_o)
+    );
+  end else begin : gen_all
+    assign wanted_valid = ray_valid;
+    assign ray_ready = wanted_ready;
+    assign wanted = ray;
+    assign wanted_segment = segment;
+    assign {rootless_o, beyond_o, sifted_row_o} = '0;
+    wire unused = &{1'b0, rootless_i, boxes_i};
+  end
   rdx_ring #(
       .N1(N1),
       .K(K),
@@ -66,13 +102,14 @@ module rdx_algebraic #(
       .clk_i,
       .rst_ni,
       .form_i('0),
-      .ray_valid_i(ray_valid),
-      .ray_ready_o(ray_ready),
-      .ray_i(ray),
-      .segment_i(segment),
+      .ray_valid_i(wanted_valid),
+      .ray_ready_o(wanted_ready),
+      .ray_i(wanted),
+      .segment_i(wanted_segment),
       .hit_valid_o,
       .hit_ready_i,
-      .hit_o
+      .hit_o,
+      .steps_o
   );
 
 endmodule

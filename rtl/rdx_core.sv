@@ -38,6 +38,7 @@ module rdx_core #(
     output logic              [31:0] hit_t_o,
     output rdx_pkg::depth_t          hit_depth_o,
     output rdx_pkg::coord_t          hit_point_o  [3],
+    output logic                     hit_enters_o,
     output rdx_pkg::steps_t          hit_steps_o
 );
   import rdx_pkg::*;
@@ -77,6 +78,8 @@ module rdx_core #(
   assign raster_ready = ready[vector];
 
   if (D > 0) begin : gen_algebraic
+    logic [5:0] steps;
+    logic [2:0] sifted;
     rdx_algebraic #(
         .N1(N1),
         .K(K),
@@ -96,8 +99,15 @@ module rdx_core #(
         .quads_i(quads),
         .hit_valid_o(hit_valid[0]),
         .hit_ready_i(hit_ready[0]),
-        .hit_o(hits[0])
+        .hit_o(hits[0]),
+        .steps_o(steps),
+        .rootless_i(1'b0),
+        .boxes_i(1'b0),
+        .rootless_o(sifted[0]),
+        .beyond_o(sifted[1]),
+        .sifted_row_o(sifted[2])
     );
+    wire unused = &{1'b0, steps, sifted};
   end else begin : gen_no_algebraic
     assign ready[0] = 1'b0;
     assign hit_valid[0] = 1'b0;
@@ -106,6 +116,7 @@ module rdx_core #(
   end
 
   if (Vecsum != VecsumNone) begin : gen_vector
+    logic [5:0] steps;
     rdx_vector #(
         .N1(N1),
         .K(K),
@@ -124,8 +135,10 @@ module rdx_core #(
         .idle_o(vector_idle),
         .hit_valid_o(hit_valid[1]),
         .hit_ready_i(hit_ready[1]),
-        .hit_o(hits[1])
+        .hit_o(hits[1]),
+        .steps_o(steps)
     );
+    wire unused = &{1'b0, steps};
   end else begin : gen_no_vector
     assign ready[1] = 1'b0;
     assign vector_idle = 1'b1;
@@ -155,6 +168,7 @@ module rdx_core #(
   assign hit_t_o = hit.t;
   assign hit_depth_o = hit.depth;
   assign hit_point_o = '{hit.point[0], hit.point[1], hit.point[2]};
+  assign hit_enters_o = hit.enters;
   assign hit_steps_o = hit.steps;
 
 endmodule

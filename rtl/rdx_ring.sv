@@ -31,16 +31,17 @@ module rdx_ring #(
     parameter bit General = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
-    input  wire rdx_pkg::form_t form_i,
-    input  wire logic           ray_valid_i,
-    output logic                ray_ready_o,
-    input  wire rdx_pkg::ray_t  ray_i,
-    input  wire segment_t       segment_i,
-    output logic                hit_valid_o,
-    input  wire logic           hit_ready_i,
-    output rdx_pkg::hit_t       hit_o
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire rdx_pkg::form_t       form_i,
+    input  wire logic                 ray_valid_i,
+    output logic                      ray_ready_o,
+    input  wire rdx_pkg::ray_t        ray_i,
+    input  wire segment_t             segment_i,
+    output logic                      hit_valid_o,
+    input  wire logic                 hit_ready_i,
+    output rdx_pkg::hit_t             hit_o,
+    output logic                [5:0] steps_o       // items that take a step, a clock ago
 );
   import rdx_pkg::*;
 
@@ -82,6 +83,10 @@ module rdx_ring #(
         .segment_o(segment[u+1])
     );
   end
+
+  logic [U-1:0] runs;
+  always_comb for (int unsigned u = 0; u < U; u++) runs[u] = control[u].status == Run;
+  always_ff @(posedge clk_i) steps_o <= 6'($countones(runs));
 
   // ---- what the items began with ----
   typedef struct packed {
@@ -138,6 +143,7 @@ module rdx_ring #(
           t: 32'(back.t),
           depth: back_segment.ends.depth_start,
           point: back_segment.ends.start,
+          enters: back.enters,
           steps: back.steps
       };
   rdx_register #(

@@ -96,7 +96,7 @@ module rdx_settle #(
   wire last = run && !dead_i && control_i.level == 5'(K - 1);
   control_t control_q;
   ends_t ends_q, ends_qq;
-  logic dead_q, last_q, changes_q;
+  logic dead_q, last_q, changes_q, positive_q;
   always_ff @(posedge clk_i) begin
     control_q <= control_i;
     ends_q    <= last ? middle : segment_i.ends;
@@ -104,6 +104,7 @@ module rdx_settle #(
     dead_q    <= dead_i;
     last_q    <= last;
     changes_q <= (b[0] > 0) != (b[D] > 0);
+    positive_q <= b[0] > 0;
   end
 
   // ---- second clock: the verdict ----
@@ -126,8 +127,10 @@ module rdx_settle #(
     control_d = control_q;
     if (control_q.status == Run) begin
       if (!dead_q && !last_q) control_d.level = control_q.level + 1'b1;
-      if (last_q && changes_q && !point_outside) control_d.status = Hit;
-      else if (last_q || dead_q) control_d.status = control_q.pending ? Again : Done;
+      if (last_q && changes_q && !point_outside) begin
+        control_d.status = Hit;
+        control_d.enters = positive_q;
+      end else if (last_q || dead_q) control_d.status = control_q.pending ? Again : Done;
       if (control_d.status != Hit && (&control_q.steps)) control_d.status = Done;
     end
   end

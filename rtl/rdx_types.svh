@@ -22,6 +22,7 @@
     rdx_pkg::steps_t         steps;   /* steps done in all */ \
     logic                    follow;  /* the digits so far are those of t_min */ \
     logic                    pending; /* t_next holds a cell */ \
+    logic                    enters;  /* of a Hit: the indicator is positive before it */ \
     logic [N-1:0]            t;       /* digits fixed, most significant first */ \
     logic [N-1:0]            t_min;   /* where this descent starts */ \
     logic [N-1:0]            t_next;  /* start of the deepest cell passed over that is still to be searched */ \

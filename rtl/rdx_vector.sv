@@ -16,17 +16,18 @@ module rdx_vector #(
     parameter int unsigned Lanes = 7,
     parameter bit General = 1'b0
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
-    input  wire rdx_pkg::form_t form_i,
-    input  wire logic           ray_valid_i,
-    output logic                ray_ready_o,
-    input  wire rdx_pkg::ray_t  ray_i,
-    input  wire rdx_pkg::ends_t ends_i,
-    output logic                idle_o,
-    output logic                hit_valid_o,
-    input  wire logic           hit_ready_i,
-    output rdx_pkg::hit_t       hit_o
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire rdx_pkg::form_t       form_i,
+    input  wire logic                 ray_valid_i,
+    output logic                      ray_ready_o,
+    input  wire rdx_pkg::ray_t        ray_i,
+    input  wire rdx_pkg::ends_t       ends_i,
+    output logic                      idle_o,
+    output logic                      hit_valid_o,
+    input  wire logic                 hit_ready_i,
+    output rdx_pkg::hit_t             hit_o,
+    output logic                [5:0] steps_o
 );
   import rdx_pkg::*;
 
@@ -71,7 +72,8 @@ module rdx_vector #(
       .segment_i(segment),
       .hit_valid_o,
       .hit_ready_i,
-      .hit_o
+      .hit_o,
+      .steps_o
   );
 
   // Rays under way. They are far fewer than the counter can hold: the stages of rdx_ends and the slots of the ring.

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from raydix import coverpoints
 from raydix.blocks import write_table
-from raydix.rtl import sources
+from raydix.rtl import sources, top_modules
 
 ROOT = Path(__file__).resolve().parents[1]
 SEED = "1"  # the same stimuli each time, so that results can be kept
@@ -23,6 +23,7 @@ HEADER = ("module", "runs", "blocks", "waived", "toggles", "waived", "toggled", 
 def modules(wanted):
     """Names of the modules that have a test, or of the one wanted. Raises ValueError where it is none."""
     names = [path.stem.removeprefix("rdx_") for path in sources() if path.stem != "rdx_pkg"]
+    names += [name.removeprefix("rdx_") for name in top_modules()]
     if wanted and wanted.removeprefix("rdx_") not in names:
         raise ValueError(f"found {wanted}; allowed: {', '.join(sorted(names))}")
     return [wanted.removeprefix("rdx_")] if wanted else names

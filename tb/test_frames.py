@@ -119,7 +119,7 @@ def test_difference_is_counted():
     config = Config(3, 8, 36, 4, 1, "both")
     compiled, golden = compiled_frame("torus", 72, 54, config)
     other = trace_golden(compiled, config)
-    for name in ("t", "depth", "point", "steps"):
+    for name in ("t", "depth", "point", "enters", "steps"):
         array = getattr(other.surfaces[0], name)
         array.flat[array.size // 2] ^= 1
         assert differing_bits(golden, other) == 1

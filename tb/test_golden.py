@@ -93,7 +93,7 @@ def traced(item, first, form, n1, steps, width, degree, general):
     """(t of the hits, depths, points, steps, last t) of an item."""
     fixed = form, new_work(n1, degree), n1, steps, width, degree, general
     t, depth, point = np.full(4, -1, np.int64), np.zeros(4, np.int32), np.zeros((4, 3), np.int32)
-    hits = trace(item, first, *fixed, t, depth, point, 0)
+    hits = trace(item, first, *fixed, t, depth, point, np.zeros(4, np.uint8), 0)
     return [int(v) for v in t[:hits]], depth[:hits].tolist(), point[:hits].tolist(), int(item[STEPS]), int(item[T])
 
 
@@ -169,7 +169,7 @@ def results():
     for name, (scene, config, width, height) in FRAMES.items():
         frame = golden.trace_golden(compiled_frame(scene, config, width, height), config)
         for index, hits in enumerate(frame.surfaces):
-            for array in ("t", "depth", "point", "steps"):
+            for array in ("t", "depth", "point", "enters", "steps"):
                 out[f"frame {name} {index} {array}"] = getattr(hits, array)
     for index, arguments in enumerate(random_polynomials()):
         out[f"polynomial {index}"] = np.array([repr(ring(**arguments))])

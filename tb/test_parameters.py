@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 import bench
-from raydix.rtl import RTL, environment, sources
+from raydix.rtl import RTL, environment, sources, written
 
 # module, its parameters, text of the reason
 CASES = [
@@ -43,6 +43,14 @@ CASES = [
     ("rdx_cordic", dict(Iterations=33), "Iterations = 33; allowed: 1 to 32, and at most W - 3 = 35"),
     ("rdx_cordic", dict(Still=19), "Still = 19; allowed: above 19, or Iterations"),
     ("rdx_cordic", dict(W=27), "Iterations = 28; allowed: 1 to 32, and at most W - 3 = 24"),
+    ("rdx_check", dict(K=0), "K = 0; allowed: 1 to 31"),
+    ("rdx_check", dict(K=32), "K = 32; allowed: 1 to 31"),
+    ("rdx_check", dict(Surfaces=0), "Surfaces = 0; allowed: 1 to 64"),
+    ("rdx_check", dict(Surfaces=65), "Surfaces = 65; allowed: 1 to 64"),
+    ("rdx_check", dict(MaxWidth=0), "MaxWidth = 0; allowed: 1 to 4096"),
+    ("rdx_check", dict(MaxWidth=4097), "MaxWidth = 4097; allowed: 1 to 4096"),
+    ("rdx_table", dict(Slots=0), "Slots = 0; allowed: 1 to 64"),
+    ("rdx_table", dict(Slots=65), "Slots = 65; allowed: 1 to 64"),
 ]
 UNREACHABLE = {"rdx_carry: CoordWidth"}  # compares two constants of rdx_pkg
 
@@ -73,7 +81,7 @@ def test_legal(module):
 def test_every_check_is_tried():
     """Each $fatal of the sources has a case above, one for each side of a range."""
     checks = set()
-    for file in sources():
+    for file in written():
         checks |= set(re.findall(r'\$fatal\(1, "(rdx_\w+: \w+)', file.read_text()))
     tried = {f"{module}: {reason.split()[0]}" for module, _, reason in CASES}
     assert checks - UNREACHABLE == tried

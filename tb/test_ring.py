@@ -169,22 +169,23 @@ def trace_by_model(shape, ray, segment):
     fixed = shape.work, shape.n1, shape.steps, shape.width, shape.degree, shape.general
 
     def follow(roots):
-        item, t, depth, point = zeros(SIZE), zeros(4), zeros(4), zeros(12).reshape(4, 3)
+        item, t, depth, enters, point = zeros(SIZE), zeros(4), zeros(4), zeros(4), zeros(12).reshape(4, 3)
         item[PAPER], item[ROOTS] = ray["paper"], roots
         item[BOX : BOX + 3] = words(ray["box"])
-        hits = trace(item, first, shape.form, *fixed, t, depth, point, 0)
-        return item, hits, t, depth, point
+        hits = trace(item, first, shape.form, *fixed, t, depth, point, enters, 0)
+        return item, hits, t, depth, point, enters
 
     place = {name: ray[name] for name in ("surface", "x", "y")}
-    item, hits, t, depth, point = follow(ray["roots"])
+    item, hits, t, depth, point, enters = follow(ray["roots"])
     for i in range(hits):
         last = i == hits - 1 and item[STATUS] == HIT
         # the steps up to a hit are those of a ray that wants no more
         steps = item[STEPS] if last else follow(i + 1)[0][STEPS]
         records.append({**place, "hit": 1, "last": int(last), "t": t[i], "depth": depth[i], "point": list(point[i])})
-        records[-1]["steps"] = steps
+        records[-1] |= {"enters": enters[i], "steps": steps}
     if item[STATUS] != HIT:
-        records.append({**place, "hit": 0, "last": 1, "t": None, "depth": None, "point": None, "steps": item[STEPS]})
+        nothing = dict.fromkeys(("t", "depth", "point", "enters"))
+        records.append({**place, "hit": 0, "last": 1, **nothing, "steps": item[STEPS]})
     return records
 
 

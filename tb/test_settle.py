@@ -68,6 +68,8 @@ def model(dut, control, segment, dead, faces):
     if control["steps"] == STEPS_MAX and status != HIT:
         status = DONE
     control["status"] = status
+    if status == HIT:
+        control["enters"] = int(segment["b"][0] > 0)
     segment = dict(start=item[C : C + 3], stop=item[C + 3 : C + 6], b=item[B : B + degree + 1])
     segment |= dict(depth_start=item[DEPTH], depth_stop=item[DEPTH + 1])
     return control, segment, status == RUN, not dead
@@ -114,6 +116,7 @@ def stimuli(dut, count, faces, random):
             steps=random.choice((1, STEPS_MAX - 1, STEPS_MAX, random.randint(1, STEPS_MAX))),
             follow=random.getrandbits(1),
             pending=random.getrandbits(1),
+            enters=random.getrandbits(1),
             **{name: random.getrandbits(n1 * steps) for name in ("t", "t_min", "t_next")},
         )
         segment = dict(start=start, stop=stop, depth_start=depths[0], depth_stop=depths[1], b=b)

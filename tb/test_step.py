@@ -18,6 +18,7 @@ from raydix.item import (
     BOX,
     DEPTH,
     DONE,
+    ENTERS,
     FOLLOW,
     HIT,
     IDLE,
@@ -41,7 +42,9 @@ from raydix.step import new_work, step
 from raydix.vecsum import new_lanes
 
 CERTIFIED_ONLY, PAPER_ONLY, BOTH = 1, 2, 3
-SCALARS = dict(status=STATUS, paper=PAPER, roots=ROOTS, level=LEVEL, steps=STEPS, follow=FOLLOW, pending=PENDING)
+SCALARS = dict(
+    status=STATUS, paper=PAPER, roots=ROOTS, level=LEVEL, steps=STEPS, follow=FOLLOW, pending=PENDING, enters=ENTERS
+)
 SCALARS |= dict(t=T, t_min=TMIN, t_next=TNEXT)
 ALGEBRAIC, VECTOR_SUM = ["equals_model", "within_bound"], ["vector_sums_equal_model", "indicator_is_that_at_the_ends"]
 REACH = 7 << COORD_FRAC - 2  # largest coordinate of a vector sum's segment, 7/4
@@ -156,6 +159,7 @@ def stimuli(dut, count):
             steps=random.choice((level, random.randrange(STEPS_MAX), STEPS_MAX - 1, STEPS_MAX - 2)),
             follow=int(random.random() < 0.4),
             pending=random.getrandbits(1),
+            enters=random.getrandbits(1),
             t=t,
             t_min=t_min,
             t_next=random.getrandbits(digits),

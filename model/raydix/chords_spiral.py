@@ -112,24 +112,25 @@ def trace_spiral(compiled: Compiled, config: Config, roots: int = 1) -> Chords:
     """The golden model on compiled chords."""
     count = len(compiled.coordinates)
     t = np.full(count * roots, -1, np.int64)
-    depth, point = np.zeros(count * roots, np.int64), np.zeros((count * roots, 3), np.int64)
+    depth, enters = np.zeros(count * roots, np.int64), np.zeros(count * roots, np.int64)
+    point = np.zeros((count * roots, 3), np.int64)
     steps = np.zeros(count, np.int64)
     _, item, first, _, work = scratch(config, 1)
     first[DEPTH], first[DEPTH + 1] = 0, (1 << (DEPTH_WIDTH - 1)) - 1
     item[PAPER] = config.rule == "paper"
     parameters = roots, config.n1, config.steps, int(config.vecsum == "general")
-    _run(compiled.coordinates, compiled.form, *parameters, item, first, work, t, depth, point, steps)
+    _run(compiled.coordinates, compiled.form, *parameters, item, first, work, t, depth, point, enters, steps)
     return Chords(t.reshape(count, roots), steps)
 
 
 @kernel
-def _run(coordinates, form, roots, n1, count, general, item, first, work, t, depth, point, steps):
+def _run(coordinates, form, roots, n1, count, general, item, first, work, t, depth, point, enters, steps):
     for i in range(len(coordinates)):
         for k in range(6):
             first[C + k] = coordinates[i, k]
         ends(first, work.lanes, form, general)
         item[ROOTS] = roots
-        trace(item, first, form, work, n1, count, VECTOR_WIDTH, 1, general, t, depth, point, i * roots)
+        trace(item, first, form, work, n1, count, VECTOR_WIDTH, 1, general, t, depth, point, enters, i * roots)
         steps[i] = item[STEPS]
 
 

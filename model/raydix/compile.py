@@ -21,7 +21,7 @@ from .formats import (
     PRODUCT_DROP,
     QUAD_ACC_WIDTH,
 )
-from .raster import BOX_AT, PAPER_AT, QUARTIC_AT, ROOTS_AT, VECTOR_AT
+from .raster import BOX_AT, OPAQUE_AT, PAPER_AT, QUARTIC_AT, ROOTS_AT, VECTOR_AT
 from .scene import Scene, SceneError
 from .surfaces import bounding_box, form
 
@@ -333,7 +333,9 @@ def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix
     make = _vector_sum if surface.type == "spiral" else _algebraic
     flags, lanes, origin, unit = make(scene, config, index, surface, h, e, low, high, cut, columns, rows)
     roots = roots_wanted(surface, config)
-    head = index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | flags
+    head = (
+        index | roots << ROOTS_AT | (config.rule == "paper") << PAPER_AT | flags | (surface.opacity == 1) << OPAQUE_AT
+    )
     depth = [int(mp.nint(z * depth_factor)) for z in (near, far)]
     words = [head, x0 | y0 << 16 | x1 << 32 | y1 << 48, depth[0] | depth[1] << DEPTH_WIDTH, *lanes]
     if any(abs(w) >= 1 << 63 for w in words):

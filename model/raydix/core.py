@@ -25,12 +25,13 @@ def renderer(n1, steps, width, degree, general):
     """
 
     @kernel
-    def render_rows(words, row_begin, row_end, state, item, first, quads, work, t, depth, point, counts):
+    def render_rows(words, row_begin, row_end, state, item, first, quads, work, t, depth, point, enters, counts):
         """Trace rows ``row_begin`` to ``row_end - 1`` of the rectangle of the surface descriptor ``words``.
 
         state … work   scratch, see :func:`scratch`
         t, depth    (rows*columns*roots) of the whole rectangle; a pixel's roots follow each other. t is -1 on entry
         point       (rows*columns*roots, 3), s2p30
+        enters      (rows*columns*roots), 1 where the indicator is positive before the hit
         counts      (rows*columns), steps
         """
         x0, _, x1, _ = rectangle(words)
@@ -51,7 +52,9 @@ def renderer(n1, steps, width, degree, general):
                 else:
                     product(quads, quartic, first, B, width, degree)
                 item[ROOTS] = roots
-                trace(item, first, form, work, n1, steps, width, degree, general, t, depth, point, pixel * roots)
+                trace(
+                    item, first, form, work, n1, steps, width, degree, general, t, depth, point, enters, pixel * roots
+                )
                 counts[pixel] = item[STEPS]
                 if column + 1 < columns:
                     next_pixel(state)

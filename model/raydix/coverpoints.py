@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from .rtl import ROOT, sources
+from .rtl import ROOT, sources, top_modules, top_sources
 
 COVER = ROOT / "tb" / "cover"
 MANIFEST = "RAYDIX_COVERAGE"  # environment: scripts/coverage.py sets it to a file that names of results are appended to
@@ -56,7 +56,8 @@ def arguments() -> list[str]:
 
 def configuration(toplevel: str) -> str:
     """Text of a .vlt file that leaves out the other modules: their own tests count their points."""
-    others = [path for path in sources() if path.stem not in (toplevel, "rdx_pkg")]
+    every = top_sources() if toplevel in top_modules() else sources()
+    others = [path for path in every if path.stem not in (toplevel, "rdx_pkg")]
     return "`verilator_config\n" + "".join(f'coverage_off -file "{path}"\n' for path in others)
 
 

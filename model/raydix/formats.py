@@ -242,8 +242,10 @@ def material_places() -> str:
     lines = []
     for field in MATERIAL:
         name = "".join(part.capitalize() for part in field.name.split("_"))
-        lines.append(f"  // {field.token}: {field.meaning}")
-        lines.append(f"  localparam int unsigned At{name} = {MATERIAL_INDEX[field.name]};")
+        lines += [
+            f"// {field.token}: {field.meaning}",
+            f"localparam int unsigned At{name} = {MATERIAL_INDEX[field.name]};",
+        ]
     return "\n".join(lines) + "\n"
 
 
@@ -279,7 +281,7 @@ def drift(write: bool = False) -> list[Path]:
         (ROOT / "rtl" / "rdx_form.svh", f"// {BEGIN}: form\n", f"// {END}: form\n", form_struct()),
         sv("rdx_cordic.sv", ": angles", angle_table()),
         (ROOT / "rtl" / "rdx_form.sv", f"      // {BEGIN}: form\n", f"      // {END}: form\n", form_loader()),
-        sv("rdx_pkg.sv", ": material", material_places()),
+        (ROOT / "rtl" / "rdx_material.svh", f"// {BEGIN}: material\n", f"// {END}: material\n", material_places()),
         sv("rdx_rsqrt.sv", ": roots", root_table()),
         sv("rdx_srgb.sv", ": codes", code_table()),
         md("", markdown()),

@@ -32,6 +32,7 @@ def _piece(surface: CompiledSurface, descriptor, config: Config, hits: SurfaceHi
         hits.t.reshape(places),
         hits.depth.reshape(places),
         hits.point.reshape(places, 3),
+        hits.enters.reshape(places),
         hits.steps.reshape(rows * columns),
     )
     return (end - begin) * columns

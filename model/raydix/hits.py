@@ -16,6 +16,7 @@ class SurfaceHits:
     t      int64 (h, w, R), digits; -1 where there is no (further) root. In order of t.
     depth  int32 (h, w, R), s1p31 of the frame's depth scale; 0 where t is -1
     point  int32 (h, w, R, 3), s2p30 of the surface's local scale; 0 where t is -1
+    enters uint8 (h, w, R), 1 where the indicator is positive before the hit; 0 where t is -1
     steps  uint16 (h, w), steps that the item took
     """
 
@@ -23,6 +24,7 @@ class SurfaceHits:
     t: np.ndarray
     depth: np.ndarray
     point: np.ndarray
+    enters: np.ndarray
     steps: np.ndarray
 
     @classmethod
@@ -35,6 +37,7 @@ class SurfaceHits:
             np.full(shape, -1, np.int64),
             np.zeros(shape, np.int32),
             np.zeros((*shape, 3), np.int32),
+            np.zeros(shape, np.uint8),
             np.zeros(shape[:2], np.uint16),
         )
 
@@ -74,6 +77,6 @@ def differing_bits(a: FrameHits, b: FrameHits) -> int:
     """Bits that differ in any output of two runs of the same compiled frame."""
     total = 0
     for one, other in zip(a.surfaces, b.surfaces, strict=True):
-        for name in ("t", "depth", "point", "steps"):
+        for name in ("t", "depth", "point", "enters", "steps"):
             total += int(np.bitwise_count(getattr(one, name) ^ getattr(other, name)).sum())
     return total

@@ -7,7 +7,25 @@ items at a time changes the order of the records only, so the golden model follo
 """
 
 from .formats import STEPS_MAX
-from .item import AGAIN, DEPTH, DONE, FOLLOW, HIT, LEVEL, PENDING, ROOTS, RUN, STATUS, STEPS, TMIN, TNEXT, B, C, T
+from .item import (
+    AGAIN,
+    DEPTH,
+    DONE,
+    ENTERS,
+    FOLLOW,
+    HIT,
+    LEVEL,
+    PENDING,
+    ROOTS,
+    RUN,
+    STATUS,
+    STEPS,
+    TMIN,
+    TNEXT,
+    B,
+    C,
+    T,
+)
 from .kernel import kernel
 from .step import step
 
@@ -31,6 +49,7 @@ def enter(item, first, degree):
     item[FOLLOW] = 0
     item[TMIN] = 0
     item[TNEXT] = 0
+    item[ENTERS] = 0
 
 
 @kernel
@@ -48,13 +67,13 @@ def more(item):
 
 
 @kernel
-def trace(item, first, form, work, n1, steps, width, degree, general, t, depth, point, at):
+def trace(item, first, form, work, n1, steps, width, degree, general, t, depth, point, enters, at):
     """Follow one item to its end; the records of its hits go to places ``at``, ``at``+1, … in order of t.
 
     item        PAPER, ROOTS and BOX are set; the rest is working state
     first       vector of item.SIZE: C, D, B of the whole segment
     form, work, … general   as in :func:`~raydix.step.step`
-    t, depth, point[3]   outputs: digits, s1p31, s2p30
+    t, depth, point[3], enters   outputs: digits, s1p31, s2p30, 1 where the indicator is positive before the hit
     Returns the number of hits; item[STEPS] is the number of steps.
     """
     hits = 0
@@ -67,6 +86,7 @@ def trace(item, first, form, work, n1, steps, width, degree, general, t, depth, 
             depth[at + hits] = item[DEPTH]
             for axis in range(3):
                 point[at + hits, axis] = item[C + axis]
+            enters[at + hits] = item[ENTERS]
             hits += 1
             if not more(item):
                 return hits

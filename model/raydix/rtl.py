@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import csr
 from .compile import CompiledFrame, descriptor_array
 from .config import Config
 from .hits import FrameHits, SurfaceHits
@@ -24,6 +25,7 @@ RTL = ROOT / "rtl"
 BENCH = ROOT / "tb" / "frame" / "frame.cpp"
 BUILD = ROOT / "build" / "rtl"
 TRACE_CONTROL = ROOT / "tb" / "trace.vlt"  # leaves out what would make waveforms huge
+GENERATED_CONTROL = ROOT / "tb" / "csr.vlt"  # what Verilator reports of generated RTL
 RULES = {"certified": 1, "paper": 2, "both": 3}
 VECSUMS = {"none": 0, "helix": 1, "general": 2}
 
@@ -35,7 +37,7 @@ RECORD = np.dtype(
         ("surface", "u1"),
         ("hit", "u1"),
         ("last", "u1"),
-        ("spare", "u1"),
+        ("enters", "u1"),
         ("t", "<u4"),
         ("depth", "<i4"),
         ("point", "<i4", 3),
@@ -51,6 +53,29 @@ class RtlError(RuntimeError):
 def sources() -> list[Path]:
     """The RTL files in the order of ``rtl/rdx.f``."""
     return [RTL / line for line in (RTL / "rdx.f").read_text().split() if not line.startswith("+")]
+
+
+def _top_lines() -> list[str]:
+    """What ``rtl/rdx_top.f`` lists after the files of ``rtl/rdx.f``."""
+    first, *rest = (RTL / "rdx_top.f").read_text().splitlines()
+    assert first == "-F rdx.f"
+    return rest
+
+
+def top_modules() -> list[str]:
+    """Modules of ``rtl/rdx_top.f``, written by hand, that need generated files."""
+    return [Path(line).stem for line in _top_lines() if "/" not in line]
+
+
+def top_sources() -> list[Path]:
+    """The RTL files in the order of ``rtl/rdx_top.f``, generated ones included; these are made if they are not there."""
+    csr.generate()
+    return [*sources(), *((RTL / line).resolve() for line in _top_lines())]
+
+
+def written() -> list[Path]:
+    """The RTL files of both lists that are written by hand."""
+    return [*sources(), *(RTL / f"{name}.sv" for name in top_modules())]
 
 
 def parameters(config: Config) -> dict[str, int]:
@@ -166,7 +191,7 @@ def _collect(compiled: CompiledFrame, records: np.ndarray) -> list[SurfaceHits]:
         rank = np.arange(at.size) - np.searchsorted(at, at)
         if (rank >= roots).any():
             raise RtlError(f"surface {surface.index}: a ray has more than {roots} roots")
-        for name in ("t", "depth", "point"):
+        for name in ("t", "depth", "point", "enters"):
             array = getattr(hits, name)
             array.reshape(rows * columns, roots, *array.shape[3:])[at, rank] = mine[name][found][order]
         last = mine["last"] == 1

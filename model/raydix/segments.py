@@ -49,18 +49,19 @@ def trace_segments(segments: Segments, config: Config, roots: int = 1) -> tuple[
     """The golden model on segments: t (N, roots) int64, -1 = none, and steps (N)."""
     count = len(segments.b)
     t, steps = np.full(count * roots, -1, np.int64), np.zeros(count, np.int64)
-    depth, point = np.zeros(count * roots, np.int64), np.zeros((count * roots, 3), np.int64)
+    depth, enters = np.zeros(count * roots, np.int64), np.zeros(count * roots, np.int64)
+    point = np.zeros((count * roots, 3), np.int64)
     _, item, first, _, work = scratch(config, config.degree)
     first[DEPTH], first[DEPTH + 1] = 0, (1 << (DEPTH_WIDTH - 1)) - 1
     item[PAPER] = config.rule == "paper"
     item[BOX : BOX + 3] = segments.box
     parameters = roots, config.n1, config.steps, config.width, config.degree
-    _run(segments.b, segments.ends, *parameters, item, first, work, t, depth, point, steps)
+    _run(segments.b, segments.ends, *parameters, item, first, work, t, depth, point, enters, steps)
     return t.reshape(count, roots), steps
 
 
 @kernel
-def _run(b, ends, roots, n1, count, width, degree, item, first, work, t, depth, point, steps):
+def _run(b, ends, roots, n1, count, width, degree, item, first, work, t, depth, point, enters, steps):
     for i in range(len(b)):
         for k in range(6):
             first[C + k] = ends[i, k]
@@ -68,5 +69,5 @@ def _run(b, ends, roots, n1, count, width, degree, item, first, work, t, depth, 
             first[B + k] = b[i, k]
         item[ROOTS] = roots
         # the last of the parameters: the constants of a vector sum, which is not asked for
-        trace(item, first, b[i], work, n1, count, width, degree, 0, t, depth, point, i * roots)
+        trace(item, first, b[i], work, n1, count, width, degree, 0, t, depth, point, enters, i * roots)
         steps[i] = item[STEPS]

@@ -9,7 +9,7 @@ from .bound import bounded, zone_of
 from .carry import descend
 from .cells import subdivide
 from .formats import STEPS_MAX, ZONES
-from .item import AGAIN, DEPTH, DONE, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
+from .item import AGAIN, DEPTH, DONE, ENTERS, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
 from .kernel import kernel, zeros
 from .normalize import norm_limit, normalize
 from .outside import outside_cells, outside_faces
@@ -121,6 +121,7 @@ def step(item, form, work, n1, steps, width, degree, general):
                 normalize(item, B, size, width, width, norm_limit(n1))
         elif settle(item, form, degree) and changes(item, B, degree):
             item[STATUS] = HIT
+            item[ENTERS] = 1 if item[B] > 0 else 0
         else:
             item[STATUS] = DONE
     if item[STATUS] == DONE and item[PENDING]:

@@ -33,7 +33,7 @@ using Trace = VerilatedVcdC;
 // Layout known to model/raydix/rtl.py
 struct Record {
     std::uint16_t x, y;
-    std::uint8_t surface, hit, last, spare;
+    std::uint8_t surface, hit, last, enters;
     std::uint32_t t;
     std::int32_t depth;
     std::int32_t point[3];
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
         if (top.hit_valid_o && top.hit_ready_i) {
             Record r{};
             r.x = top.hit_x_o, r.y = top.hit_y_o, r.surface = top.hit_surface_o;
-            r.hit = top.hit_hit_o, r.last = top.hit_last_o, r.t = top.hit_t_o;
+            r.hit = top.hit_hit_o, r.last = top.hit_last_o, r.enters = top.hit_enters_o, r.t = top.hit_t_o;
             r.depth = static_cast<std::int32_t>(top.hit_depth_o);
             for (int i = 0; i < 3; i++) r.point[i] = static_cast<std::int32_t>(top.hit_point_o[i]);
             r.steps = top.hit_steps_o;

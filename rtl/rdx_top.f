@@ -1,0 +1,4 @@
+-F rdx.f
+../build/csr/rdx_csr_regs_pkg.sv
+../build/csr/rdx_csr_regs.sv
+rdx_csr.sv
