@@ -58,7 +58,7 @@ async def write_materials(dut, materials):
 
 
 async def send(dut, pixels, random, idle, bank):
-    """Pixels, lists of layers and the code expected, by layer_i: each comes out in order, at its clock, and none else."""
+    """Pixels, lists of layers and the code expected, by layer_i: each comes out at its clock, none else."""
     latency = LATENCY[bench.parameter(dut, "D")]
     layer_i, clocks = bench.Port(dut, "layer_i", LAYER), []
     dut.read_bank_i.value = bank

@@ -113,11 +113,7 @@ def errors(root) -> dict[str, tuple[int, str]]:
 
 def _python(root) -> str:
     """Text of the Python map."""
-    lines = [
-        "# Generated from rtl/rdx_csr.rdl by raydix.csr.",
-        '"""Registers, windows and error codes of rdx_csr."""',
-        "",
-    ]
+    lines = ["# Generated from rtl/rdx_csr.rdl by raydix.csr.", '"""Registers, windows and error codes of rdx_csr."""', ""]
     for name, table in (("REGISTERS", registers(root)), ("WINDOWS", windows(root)), ("ERRORS", errors(root))):
         lines += [f"{name} = {{", *(f"    {key!r}: {value!r}," for key, value in table.items()), "}"]
     return "\n".join([*lines, ""])
