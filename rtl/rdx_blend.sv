@@ -5,8 +5,8 @@
 // is taken, which changes nothing, so that no register needs an enable.
 //
 // Formats    all numbers u1p16, at most 1. valid_i: a layer comes; first_i, last_i: of its pixel; Layers = 1: both are taken for 1.
-// Rounding   half up, each product.
-// Overflow   the sum is cut to 1 at the end: part and what is let through are together at most T and one ulp, so that n layers
+// Rounding   half up, each product; what is let through: down, because the loop from layer to layer is one clock.
+// Overflow   the sum is cut to 1 at the end: part and what is let through are together at most T and half an ulp, so that n layers
 //            sum up to 1 and n ulp; that fits 18 bits.
 // Timing     latency rdx_pkg::BlendLatency = 9 clocks from the last layer, a layer a clock.
 // Reset      of valid_o only.
@@ -59,9 +59,10 @@ module rdx_blend #(
     end
   end else begin : gen_many
     wire unit_product_t through = unit_product_t'(through_q) * unit_product_t'(rest_q);
+    wire unused_through = &{1'b0, through[UnitFrac-1:0], through[2*UnitWidth-1]};
     always_ff @(posedge clk_i) begin
       seen_q <= first_q[1] ? One : through_q;
-      through_q <= first_q[1] ? rest_q : rounded(through);
+      through_q <= first_q[1] ? rest_q : through[UnitFrac+:UnitWidth];
     end
   end
 

@@ -69,6 +69,8 @@ POINTS = {
     "step-vector-lane": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
     "step-vector-n2": Point("rdx_step", {"N1": 2, "K": 12, "W": 38, "D": 1, "Rules": 1, "Lanes": 3}, slow=True),
     "step-vector": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 7}, slow=True),
+    "shade-d2": Point("rdx_shade", {"D": 2, "Vecsum": 0, "Surfaces": 1}),
+    "shade-d4": Point("rdx_shade", {"D": 4, "Vecsum": 0, "Surfaces": 1}),
     "core": Point("rdx_core", {"N1": 3, "K": 8, "W": 36, "D": 4, "U": 1, "Rules": 1}, slow=True),
 }
 

@@ -5,7 +5,8 @@ import numpy as np
 
 from raydix.hits import FrameHits
 from raydix.scene import Scene
-from raydix.shade import _basis, _normals
+from raydix.shade import _basis, _local, _normals
+from raydix.surfaces import normal_direction
 
 
 def encoded(linear: np.ndarray) -> np.ndarray:
@@ -41,3 +42,23 @@ def linear_picture(scene: Scene, frame: FrameHits) -> np.ndarray:
             linear[at] += through[at] * a * shade[now]
             through[at] *= 1 - a
     return (linear + through * np.array(scene.background.color)).reshape(height, width, 3)
+
+
+def with_enters(scene: Scene, frame: FrameHits) -> FrameHits:
+    """The frame; where the core did not say which hits enter, from the float gradient."""
+    forward, right, up, pixel, width, height = _basis(scene)
+    for hits in frame.surfaces:
+        if hasattr(hits, "enters"):
+            continue
+        surface, where = scene.surfaces[hits.surface.index], np.nonzero(hits.t >= 0)
+        rows, columns = where[0] + hits.surface.rect[1], where[1] + hits.surface.rect[0]
+        local = _local(hits.surface, hits.point[where])
+        normal = normal_direction(surface, local) @ np.linalg.inv(np.array(surface.matrix))
+        ray = (
+            forward
+            + ((columns + 0.5 - width / 2) * pixel)[:, None] * right
+            + ((height / 2 - rows - 0.5) * pixel)[:, None] * up
+        )
+        hits.enters = np.zeros(hits.t.shape, np.uint8)
+        hits.enters[where] = (normal * ray).sum(axis=1) < 0
+    return frame

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Layers of a pixel from front to back (mirrors ``rtl/rdx_blend.sv``). All numbers are u1p16.
 
-A layer takes part = T a of the light and lets T (1 - a) through, each rounded half up; so part and what is let through
-are together at most T and one ulp, and a pixel of n layers sums up to 1 and n ulp at most, which is cut to 1.
+A layer takes part = T a of the light, rounded half up, and lets T (1 - a) through, rounded down: from layer to layer
+there is one clock, which has no time for more than the product. So part and what is let through are together at most T
+and half an ulp, and a pixel of n layers sums up to 1 and n ulp at most, which is cut to 1.
 """
 
 from .formats import UNIT_FRAC
@@ -23,7 +24,7 @@ def add_layer(total, through, color, opacity):
     part = times(through, opacity)
     for channel in range(3):
         total[channel] += times(part, color[channel])
-    return times(through, ONE - opacity)
+    return (through * (ONE - opacity)) >> UNIT_FRAC
 
 
 @kernel

@@ -56,6 +56,7 @@ ANGLE_STILL = 20
 LENGTH_ITERATIONS = 16
 ZONES = 16
 UNIT_FRAC = 16
+NORMAL_WIDTH = 18
 LARGEST_ITERATIONS = 32  # of a CORDIC
 
 
@@ -154,7 +155,7 @@ TABLE = (
     Constant("Zones", ZONES, "", "of the distance from the axis, each with bounds of its own"),
     Constant("UnitWidth", 1 + UNIT_FRAC, "u1p16", "linear colour, opacity, light: 0 to 1 inclusive"),
     Constant("UnitFrac", UNIT_FRAC, "", "fractional bits of such a number"),
-    Constant("NormalWidth", 18, "s1p17", "component of a normal or of a constant of a material"),
+    Constant("NormalWidth", NORMAL_WIDTH, "s1p17", "component of a normal or of a constant of a material"),
     Constant("MaterialWords", MATERIAL_WORDS, "", "places for the constants of a material, 32 bits each"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
     Constant("VectorWords", VECTOR_WORDS, "", "words of a descriptor of a vector-sum surface", False),
