@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The descriptor memory: both ports against a model, while the banks are exchanged; the reader sees its own bank only."""
+"""The descriptor memory: both ports against a model, while the banks are exchanged; the reader sees its bank only."""
 
 import cocotb
 import pytest
