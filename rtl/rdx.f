@@ -36,4 +36,15 @@ rdx_product.sv
 rdx_ends.sv
 rdx_algebraic.sv
 rdx_vector.sv
+rdx_constant.sv
+rdx_swirl_polar.sv
+rdx_swirl_turn.sv
+rdx_swirl_side.sv
+rdx_swirl_part.sv
+rdx_swirl_legs.sv
+rdx_swirl_slope.sv
+rdx_swirl_chord.sv
+rdx_swirl_end.sv
+rdx_swirl_gradient.sv
+rdx_swirl.sv
 rdx_core.sv
