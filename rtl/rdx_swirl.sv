@@ -8,8 +8,7 @@
 // Formats    point_i: x, y, z in s2p30, z carries K. gradient_o: in scaled coordinates, up to a positive factor, s1p17;
 //            0 only where it vanishes. write_i: every write to the materials.
 // Rounding   that of the parts.    Overflow   cannot happen at points of the surface.
-// Timing     latency rdx_pkg::SwirlLatency clocks, one point a clock, never a stall.
-// Reset      of the waiting lines' places only.
+// Timing     latency rdx_pkg::SwirlLatency clocks, one point a clock. Reset of the waiting lines' places only.
 // Error      docs/modules/swirl.md
 // Model      model/raydix/swirl.py (swirl)
 `default_nettype none

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether a point of the surface belongs to the ball at an end of the spiral, not to the tube.
 //
-// The power of a point is distance squared less radius squared. The ball's less the tube's, d turns away from the end, is
+// The power of a point is distance squared less radius squared. The ball's less the tube's, d turns from the end, is
 // 4 rho R sin^2(pi d) + 4 pi d side + d^2 (R_growth^2 + pitch^2 - r_growth^2), without squares that cancel. Where d is
 // below a half it is divided by d; from a turn on the tube is nearer.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point as seen from the centre of the tube at a place of the spiral, in the half plane of its azimuth; the radius there.
+// A point as seen from the tube's centre at a place of the spiral, in the half plane of its azimuth; the tube's radius.
 //
 // Formats    place_i: turns, s8p22. rho_i, z_i: two clocks after it: K times distance from the axis, s4p22, and height,
 //            s2p22. across_o, along_o, size_o: s1p17, times 2^E; size_o is 0 without General.

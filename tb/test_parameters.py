@@ -42,6 +42,9 @@ CASES = [
     ("rdx_cordic", dict(Iterations=0), "Iterations = 0; allowed: 1 to 32, and at most W - 3 = 35"),
     ("rdx_cordic", dict(Iterations=33), "Iterations = 33; allowed: 1 to 32, and at most W - 3 = 35"),
     ("rdx_cordic", dict(Still=19), "Still = 19; allowed: above 19, or Iterations"),
+    ("rdx_constant", dict(Surfaces=0), "Surfaces = 0; allowed: 1 to 64"),
+    ("rdx_constant", dict(Surfaces=65), "Surfaces = 65; allowed: 1 to 64"),
+    ("rdx_constant", dict(Index=64), "Index = 64; allowed: below 64"),
     ("rdx_cordic", dict(W=27), "Iterations = 28; allowed: 1 to 32, and at most W - 3 = 24"),
 ]
 UNREACHABLE = {"rdx_carry: CoordWidth"}  # compares two constants of rdx_pkg

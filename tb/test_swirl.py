@@ -133,3 +133,120 @@ PARAMETERS = [dict(General=g, Surfaces=n) for g, n in ((0, 1), (0, 5), (1, 1), (
 def test_gradient(parameters):
     """The evaluator of helices, and that of every spiral, of one surface and of several."""
     bench.run(__name__, "rdx_swirl", parameters)
+
+
+# ---------------------------------------------------------------- outside of the simulator
+
+
+def on_surface(dice, found, count):
+    """Points of the surface, as s2p30 and in the surface's unit: of the tube, at its ends, of the balls, a fifth each."""
+    shape, form = found.form.surface, found.form
+    numbers = np.random.default_rng(dice.getrandbits(32))
+    kind = numbers.integers(0, 5, count)
+    near_end = np.abs(numbers.normal(0, 0.02, count)) % shape.turns
+    s = np.choose(kind, [numbers.uniform(0, shape.turns, count)] * 2 + [near_end, 0 * near_end, 0 * near_end])
+    s = np.where(numbers.random(count) < 0.5, s, shape.turns - s)
+    slope, turn = numbers.uniform(0, 2 * np.pi, count), 2 * np.pi * s
+    section = np.stack([np.cos(slope) * np.cos(turn), np.cos(slope) * np.sin(turn), np.sin(slope)], axis=1)
+    any_way = numbers.normal(size=(count, 3))
+    any_way /= np.linalg.norm(any_way, axis=1, keepdims=True)
+    ways = np.where((kind > 2)[:, None], any_way, section)
+    place = spiral._centre(shape, s) + ways * spiral._radius(shape, s)[:, None]
+    coordinates = np.rint((place - form.origin) / form.unit * (1 << formats.COORD_FRAC)).astype(np.int64)
+    place = coordinates / (1 << formats.COORD_FRAC) * form.unit + form.origin
+    on = np.abs(spiral.value(shape, place)) < 1e-7 * form.unit[0]
+    return coordinates[on], place[on]
+
+
+class Candidates(NamedTuple):
+    """What a point may belong to, arrays (candidates, N); lengths in scaled coordinates."""
+
+    gradient: np.ndarray  # (candidates, N, 3), unit length
+    allowed: np.ndarray  # error of its direction
+    doubtful: np.ndarray  # whether it is as near as the nearest, but for what the choice may be off
+
+
+def _unit(v):
+    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-300)
+
+
+def candidates(found, place):
+    """Both balls and every turn, with bounds that are derived here; scaled coordinates, without K.
+
+    legs    16 roundings of the radius and those of the constants, 2^-17; the azimuth, off by 2^-15 and by 16 roundings over the radius, in radians,
+            times the rise of a radian; over the tube's radius here. 17 digits of the tube's largest radius
+    turned  x and y have 16 digits, the slope's constants 15
+    choice  powers: 2^-13 where the constants are scaled to 1; the turn's place by 2^-15; over twice the radius
+    """
+    shape, scale, gain_angle = found.form.surface, 1 / found.form.unit[0], float(gain(formats.SWIRL_ITERATIONS))
+    parts = []
+    for s in (0.0, shape.turns):
+        s = np.full(len(place), s)
+        ball = spiral._ball_gradient(shape, place, s)
+        distance = np.linalg.norm(place - spiral._centre(shape, s), axis=-1) - spiral._radius(shape, s)
+        parts.append((distance, ball, spiral._radius(shape, s)))
+    for m in range(-1, int(shape.turns) + 2):
+        s = m + spiral._azimuth(place)
+        _, across, along = spiral._offsets(shape, place, s)
+        radius = spiral._radius(shape, s)
+        within = (s > -1e-5) & (s < shape.turns + 1e-5)
+        distance = np.where(within, np.hypot(across, along) - radius, np.inf)
+        parts.append((distance, spiral._disk_gradient(shape, place, s), np.abs(radius) + 1e-300))
+    distance, exact, size = (np.stack(part) for part in zip(*parts, strict=True))
+    rho, size = np.hypot(place[:, 0], place[:, 1]) * scale, size * scale
+    largest = scale * max(shape.r, shape.r + shape.r_growth * shape.turns)
+    slant = math.hypot(shape.pitch, shape.R_growth) * scale / (2 * math.pi)
+    legs = (2.0**-17 + (2.0**-15 + 2.0**-18 / rho) * slant) / size + 2.0**-15 * largest / size
+    allowed = legs + 2.0**-15 * (1 + 1 / rho)
+    near = float(found.words[formats.SWIRL_INDEX["near"]]) / (1 << 17)
+    power = (
+        4 * math.pi * 2.0**-13 / near / 2.0 ** (float(found.words[formats.SWIRL_INDEX["scale"]]) - 1) / gain_angle**2
+    )
+    choice = (power + 2.0**-15 * (2 * math.pi * slant) ** 2) / (2 * size) + 2.0**-18 + 2.0**-15 * slant
+    doubtful = distance * scale <= (distance * scale).min(axis=0) + choice
+    return Candidates(_unit(exact * found.form.unit), allowed, doubtful)
+
+
+def directions(dice, found, count):
+    """Errors of the model's directions at points of the surface: plain, and against the best of what is in doubt.
+
+    Returns both, and the second as a part of what is allowed.
+    """
+    coordinates, place = on_surface(dice, found, count)
+    general = needs_general(found.form.surface)
+    got = _unit(
+        np.array([gradient(found, [int(v) for v in point], general) for point in coordinates], float).reshape(-1, 3)
+    )
+    exact = _unit(spiral.gradient(found.form.surface, place) * found.form.unit)
+    possible = candidates(found, place)
+    error = np.linalg.norm(possible.gradient - got, axis=-1)
+    error = np.where(possible.doubtful, error, np.inf)
+    best = np.argmin(error / possible.allowed, axis=0)[None]
+    error = np.take_along_axis(error, best, 0)[0]
+    return np.linalg.norm(got - exact, axis=-1), error, error / np.take_along_axis(possible.allowed, best, 0)[0]
+
+
+def test_error():
+    """The direction is within its bound of the definition's; the choice of what it belongs to is almost always the same."""
+    dice = random.Random(int(os.environ.get("SEED") or 1))
+    found = [*scene_swirls(), *(random_swirl(dice, number % 2) for number in range(40))]
+    worst, plain, doubtful, seen = [], [], [], []
+    for each in found:
+        error, chosen, part = directions(dice, each, 1500)
+        if not len(part):
+            continue  # all of it is inside of itself
+        number = int(np.argmax(part))
+        assert part.max() <= 1, f"{each.form.surface}: {chosen[number]}, {part[number]} of the bound"
+        worst.append(part.max())
+        plain.append(error)
+        doubtful.append(error > 2 * chosen)
+        if 0.02 < each.form.surface.r / each.form.surface.R < 0.9:
+            seen.append(chosen)
+    plain, seen, rate = np.concatenate(plain), np.concatenate(seen), np.mean(np.concatenate(doubtful))
+    rms, most = np.sqrt(np.mean(seen**2)), np.quantile(seen, 0.999)
+    print(f"{plain.size} points, {max(worst):.2f} of the bound, {rate:.2g} chosen otherwise")
+    print(
+        f"{seen.size} of spirals neither thin nor near the axis: rms {rms:.2g}, 99.9 % {most:.2g}, max {seen.max():.2g}"
+    )
+    assert plain.size > 20_000 and len(worst) >= 30 and max(worst) > 1 / 3
+    assert rate < 2.0**-9 and rms < 2.0**-12

@@ -67,7 +67,11 @@ def swirl_words(surface, origin, unit) -> list[int]:
         values = {
             **_nearest(radius, height, tube, growth, pitch, swell),
             **_ends(
-                across, radius, radius + growth * turns, max(tube, tube + swell * turns), growth**2 + pitch**2 - swell**2
+                across,
+                radius,
+                radius + growth * turns,
+                max(tube, tube + swell * turns),
+                growth**2 + pitch**2 - swell**2,
             ),
             "turns": turns,
             "radius": radius,

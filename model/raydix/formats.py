@@ -260,7 +260,10 @@ def swirl_types() -> str:
     for field in SWIRL:
         number = SWIRL_FIRST + SWIRL_INDEX[field.name]
         sign = "signed " if field.token[0] == "s" else ""
-        lines += [f"// {field.token}: {field.meaning}", f"localparam int unsigned Swirl{_camel(field.name)} = {number};"]
+        lines += [
+            f"// {field.token}: {field.meaning}",
+            f"localparam int unsigned Swirl{_camel(field.name)} = {number};",
+        ]
         lines += [f"typedef logic {sign}[{field.width - 1}:0] swirl_{field.name}_t;"]
     return "\n".join(lines) + "\n"
 
