@@ -12,17 +12,17 @@ from typing import NamedTuple
 import cocotb
 import numpy as np
 import pytest
+from cocotb.triggers import FallingEdge
 
 import bench
 import latency
-from cocotb.triggers import FallingEdge
 from raydix import formats, spiral
 from raydix.compile import compile_scene
 from raydix.compile_spiral import Oversize, needs_general
 from raydix.compile_swirl import swirl_words
 from raydix.config import Config
-from raydix.core import FORM_AT
 from raydix.cordic import gain
+from raydix.core import FORM_AT
 from raydix.kernel import words, zeros
 from raydix.rtl import ROOT
 from raydix.scene import load_scene
@@ -139,7 +139,7 @@ def test_gradient(parameters):
 
 
 def on_surface(dice, found, count):
-    """Points of the surface, as s2p30 and in the surface's unit: of the tube, at its ends, of the balls, a fifth each."""
+    """Points of the surface, as s2p30 and in the surface's unit: of the tube, of its ends, of the balls."""
     shape, form = found.form.surface, found.form
     numbers = np.random.default_rng(dice.getrandbits(32))
     kind = numbers.integers(0, 5, count)
@@ -173,8 +173,8 @@ def _unit(v):
 def candidates(found, place):
     """Both balls and every turn, with bounds that are derived here; scaled coordinates, without K.
 
-    legs    16 roundings of the radius and those of the constants, 2^-17; the azimuth, off by 2^-15 and by 16 roundings over the radius, in radians,
-            times the rise of a radian; over the tube's radius here. 17 digits of the tube's largest radius
+    legs    16 roundings of the radius, and the constants, 2^-17; the azimuth, off by 2^-15 and by 16 roundings over the
+            radius, in radians, times the rise of a radian; over the tube's radius here. 17 digits of the largest radius
     turned  x and y have 16 digits, the slope's constants 15
     choice  powers: 2^-13 where the constants are scaled to 1; the turn's place by 2^-15; over twice the radius
     """
@@ -227,7 +227,7 @@ def directions(dice, found, count):
 
 
 def test_error():
-    """The direction is within its bound of the definition's; the choice of what it belongs to is almost always the same."""
+    """The direction is within its bound of the definition's; what a point is taken for is nearly always the same."""
     dice = random.Random(int(os.environ.get("SEED") or 1))
     found = [*scene_swirls(), *(random_swirl(dice, number % 2) for number in range(40))]
     worst, plain, doubtful, seen = [], [], [], []

@@ -4,7 +4,7 @@
 import mpmath as mp
 
 from .compile import PRECISION
-from .compile_spiral import needs_general, rounded, tube_of
+from .compile_spiral import rounded, tube_of
 from .cordic import gain
 from .formats import ANGLE_ITERATIONS, SWIRL
 

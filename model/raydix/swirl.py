@@ -118,27 +118,33 @@ def part(length, scale):
 
 
 @kernel
+def chord(turns):
+    """sin^2(pi v)/v, u3p15, of v up to a half, u0p22. Mirrors ``rtl/rdx_swirl_chord.sv``."""
+    index, within = turns >> PART_BITS, turns & ((1 << PART_BITS) - 1)
+    return CHORDS[index] + ((CHORD_GAINS[index] * within) >> (PART_BITS + 5))
+
+
+@kernel
 def in_ball(place, azimuth, rho, side, words, stop):
     """Whether the ball at an end is nearer than the tube.
 
     side  the growth of the indicator with the azimuth, s3p25
-    The sign of: distance squared less radius squared of the ball, less the same of the tube, times c 2^E / 4 pi, divided
-    by the turns between them where these are below a half. Mirrors ``rtl/rdx_swirl_end.sv``.
+    The sign of: distance squared less radius squared of the ball, less the same of the tube, times c 2^E / 4 pi,
+    divided by the turns between them where these are below a half. Mirrors ``rtl/rdx_swirl_end.sv``.
     """
     away = words[TURNS] - place if stop else place
     beyond = (azimuth - words[TURNS] if stop else azimuth) & (2 * HALF - 1)
     folded = (beyond ^ (2 * HALF - 1)) if beyond & HALF else beyond
     small = away < HALF
-    index, within = folded >> PART_BITS, folded & ((1 << PART_BITS) - 1)
-    chord = CHORDS[index] + ((CHORD_GAINS[index] * within) >> (PART_BITS + 5))
+    arc = chord(folded)
     distance = (away >> (SWIRL_FRAC - 17)) & (ONE - 1)
     if not small:
-        chord = (chord * (folded >> (SWIRL_FRAC - 17))) >> 17
+        arc = (arc * (folded >> (SWIRL_FRAC - 17))) >> 17
     reach = (rho * (words[STOP_REACH] if stop else words[START_REACH])) >> 17
     leaning = words[NEAR] * (side >> 10)
     leaning = ((words[BEND] * distance) >> 2) + (-leaning if stop else leaning)
     leaning = leaning >> 2 if small else ((leaning >> 18) * distance) >> 1
-    return away < 2 * HALF and chord * reach + leaning < 0
+    return away < 2 * HALF and arc * reach + leaning < 0
 
 
 @kernel
