@@ -46,6 +46,17 @@ rdx_rsqrt.sv
 rdx_light.sv
 rdx_blend.sv
 rdx_srgb.sv
+rdx_swirl_polar.sv
+rdx_swirl_turn.sv
+rdx_swirl_side.sv
+rdx_swirl_part.sv
+rdx_swirl_legs.sv
+rdx_swirl_slope.sv
+rdx_swirl_chord.sv
+rdx_swirl_end.sv
+rdx_swirl_gradient.sv
+rdx_swirl.sv
+rdx_normal.sv
 rdx_shade.sv
 rdx_core.sv
 rdx_fifo.sv

@@ -191,7 +191,7 @@ module rdx_render #(
       .counters_o
   );
   assign ready_o = swept && !busy;
-  assign done_o = finish;
+  assign done_o  = finish;
   wire unused = &{1'b0, y};
 
 endmodule
