@@ -33,7 +33,7 @@ typedef struct packed {
   pixel_t      last_y;      // rows less one
   surface_t    last_slot;   // descriptors less one
   logic        empty;       // there is no descriptor
-  logic [4:0]  k_stop;      // steps to a hit, 1 to K
+  logic [5:0]  k_stop;      // steps to a hit, 1 to K
   skip_t       skip;
   unit_t       ambient;
   unit_t [2:0] background;  // [0] red, [1] green, [2] blue

@@ -15,11 +15,11 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from .config import RULES, Config, ConfigError
-from .fit import families
+from .fit import families, frame_parameters
 from .formats import STEPS_MAX
 from .hits import FrameHits
 from .image import ImageError, frame_writers, write_files
-from .rtl import RtlError, build
+from .rtl import TOP, RtlError, build
 from .scene import Scene, SceneError, load_scene
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--vector-units", type=int, default=1, metavar="U", help="step units in the vector-sum ring (default: 1)"
     )
+    parser.add_argument("--beat", type=int, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)")
     parser.add_argument("--size", type=_size, metavar="WxH", help="image size instead of the scene's")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
 
@@ -93,6 +94,7 @@ def _config(args: argparse.Namespace, scene: Scene) -> Config:
         lanes=args.lanes,
         vector_units=args.vector_units,
         **families(scene),
+        **frame_parameters(scene, args.beat),
     )
 
 
@@ -131,7 +133,7 @@ def _build(config: Config, trace: str | None = None) -> None:
     if not console.is_terminal:
         print(f"raydix: {text}", file=sys.stderr, flush=True)
     with console.status(text):
-        build(config, trace)
+        build(config, trace, TOP)
 
 
 def _say_what_is_seen(scene: Scene, hits: FrameHits) -> None:
