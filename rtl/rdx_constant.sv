@@ -2,9 +2,10 @@
 // One constant of the materials: a word for each surface, in two banks.
 //
 // Formats    write_i: a write to any constant; only those to number Index are taken, the low W bits of their data.
-//            material_i, data_o: which word is read, and it. The low bits of the surface's number count that Surfaces needs.
-// Timing     latency rdx_pkg::ConstantLatency = 2 clocks, one word a clock; no reset. A word that is written while it is
-//            read comes out as it was or as it will be.
+//            material_i, data_o: which word is read, and it. Of the surface's number the low bits
+//            count that Surfaces needs.
+// Timing     latency rdx_pkg::ConstantLatency = 2 clocks, one word a clock; no reset. A word that is written while
+//            it is read comes out as it was or as it will be.
 // Model      none: model/raydix/material.py makes the words
 `default_nettype none
 
@@ -30,14 +31,24 @@ module rdx_constant #(
 
   wire place_t write = place_t'({write_i.material.surface, write_i.material.bank});
   wire place_t read = place_t'({material_i.surface, material_i.bank});
+  wire mine = write_i.we && write_i.constant == rdx_pkg::constant_t'(Index);
 
-  logic [W-1:0] memory[1<<Bits];
   logic [W-1:0] read_q;
-  always_ff @(posedge clk_i) begin
-    if (write_i.we && write_i.constant == rdx_pkg::constant_t'(Index)) memory[write] <= write_i.data[W-1:0];
-    read_q <= memory[read];
-    data_o <= read_q;
+  if (Surfaces == 1) begin : gen_registers
+    logic [W-1:0] first_q, second_q;
+    always_ff @(posedge clk_i) begin
+      if (mine && write == 0) first_q <= write_i.data[W-1:0];
+      if (mine && write == 1) second_q <= write_i.data[W-1:0];
+      read_q <= read == 0 ? first_q : second_q;
+    end
+  end else begin : gen_memory
+    logic [W-1:0] memory[1<<Bits];
+    always_ff @(posedge clk_i) begin
+      if (mine) memory[write] <= write_i.data[W-1:0];
+      read_q <= memory[read];
+    end
   end
+  always_ff @(posedge clk_i) data_o <= read_q;
   wire unused = &{1'b0, write_i, material_i};
 
 endmodule

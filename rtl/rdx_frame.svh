@@ -122,10 +122,6 @@ typedef struct packed {
   logic                hidden;     // a ray behind the nearest opaque hit
   logic                rootless;   // a ray without a root on its segment
   logic                beyond;     // a ray beyond a face of the box
-  logic                ray;        // a ray's last record
-  logic                hit;        // a record with a root
-  logic                given_up;   // a ray's last record after too many steps
-  logic [4:0]          early;      // steps that a ray did not take, in its last record
   logic [5:0]          steps;      // items that take a step
   logic                visible;    // a layer that is shaded
   logic                lost;       // a hit that would have been seen had no room

@@ -49,10 +49,10 @@ module rdx_layers #(
   localparam int unsigned Banks = 2 * Pixels;  // bank row * Pixels + pixel
   localparam type word_t = logic [$bits(count_t)+Layers*$bits(entry_t)-1:0];
   localparam type bank_t = logic [$clog2(Banks)-1:0];
-  if (Pixels < 1 || Pixels != 1 << PixelBits || Layers < 1 || MaxWidth != Groups * Pixels) begin : gen_illegal
+  if (Pixels != 1 << PixelBits || Layers < 1 || MaxWidth != Groups * Pixels) begin : gen_illegal
     $fatal(
         1,
-        "rdx_layers: Pixels = %0d, Layers = %0d, MaxWidth = %0d; allowed: Pixels a power of two, Layers 1 or more, MaxWidth a multiple",
+        "rdx_layers: Pixels = %0d, Layers = %0d, MaxWidth = %0d; allowed: powers of two, 1 or more, a multiple of Pixels",
         Pixels,
         Layers,
         MaxWidth
@@ -148,8 +148,8 @@ module rdx_layers #(
   end
   assign last_o = write_valid_q && write_q.last;
   assign last_row_o = write_q.y[0];
+  wire unused_hit = &{1'b0, write_q};
 
-  // ---- what was asked for ----
   always_comb begin
     for (int unsigned p = 0; p < Pixels; p++) begin
       automatic word_t word = words_q[(clear_row_qq?Pixels : 0)+p];
@@ -193,7 +193,6 @@ module rdx_layers #(
     assign limit_o = '0;
     wire unused = &{1'b0, look_i, look_x_i, look_row_i};
   end
-  wire unused = &{1'b0, write_q};
 
 endmodule
 

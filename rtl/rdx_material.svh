@@ -66,7 +66,6 @@ localparam int unsigned RsqrtLatency = 5;
 localparam int unsigned LightLatency = 27;
 localparam int unsigned BlendLatency = 9;
 localparam int unsigned SrgbLatency = 3;
-localparam int unsigned SwirlLatency = 1;  // of rdx_swirl, which is not built yet
 
 // Latency of rdx_gradient: constants, slopes, with quartics values and their products, sum, scaling.
 function automatic int unsigned gradient_latency(int unsigned d);

@@ -61,8 +61,11 @@ module rdx_ring #(
   segment_t enter_segment_q, segment[U+1];
   assign control[0] = enter_q;
   assign segment[0] = enter_segment_q;
-  logic [3:0] phase;  // of the place at the first unit
+  logic [  3:0] phase;  // of the place at the first unit
+  logic [U-1:0] runs;
+  always_ff @(posedge clk_i) steps_o <= 6'($countones(runs));
   for (genvar u = 0; u < U; u++) begin : gen_unit
+    assign runs[u] = control[u].status == Run;
     rdx_step #(
         .N1(N1),
         .K(K),
@@ -83,10 +86,6 @@ module rdx_ring #(
         .segment_o(segment[u+1])
     );
   end
-
-  logic [U-1:0] runs;
-  always_comb for (int unsigned u = 0; u < U; u++) runs[u] = control[u].status == Run;
-  always_ff @(posedge clk_i) steps_o <= 6'($countones(runs));
 
   // ---- what the items began with ----
   typedef struct packed {

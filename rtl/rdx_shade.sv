@@ -90,29 +90,22 @@ module rdx_shade #(
 
   // ---- gradient ----
   coord_t  point   [3];
-  normal_t own     [3];
   normal_t gradient[3];
   for (genvar axis = 0; axis < 3; axis++) begin : gen_point
     assign point[axis] = coord_t'(layer_i.point[axis]);
   end
-  rdx_gradient #(
+  rdx_normal #(
       .D(D),
+      .Vecsum(Vecsum),
       .Surfaces(Surfaces)
-  ) u_gradient (
+  ) u_normal_of (
       .clk_i,
       .rst_ni,
       .write_i(write_q),
       .material_i(asked.material),
       .point_i(point),
-      .gradient_o(own)
+      .gradient_o(gradient)
   );
-  if (Vecsum == VecsumNone) begin : gen_algebraic
-    assign gradient = own;
-  end else begin : gen_vector
-    // Here rdx_swirl computes the gradient of vector sums from the same point: both wait for the slower one, and the constant
-    // AtVector of the material chooses.
-    $fatal(1, "rdx_shade: Vecsum = %0d; allowed: 0", Vecsum);
-  end
 
   // ---- light, blending, codes ----
   unit_t color[3], linear[3];

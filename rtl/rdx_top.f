@@ -2,3 +2,4 @@
 ../build/csr/rdx_csr_regs_pkg.sv
 ../build/csr/rdx_csr_regs.sv
 rdx_csr.sv
+rdx_top.sv

@@ -65,6 +65,7 @@ POINTS = {
     "cordic-length": Point("rdx_cordic", {"W": 38, "Iterations": 16, "Angle": 0}),
     "vecsum": Point("rdx_vecsum", {"General": 0}),
     "vecsum-general": Point("rdx_vecsum", {"General": 1}, slow=True),
+    "swirl": Point("rdx_swirl", {"General": 0, "Surfaces": 1}),
     "step-vector-n1": Point("rdx_step", {"N1": 1, "K": 24, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
     "step-vector-lane": Point("rdx_step", {"N1": 3, "K": 8, "W": 38, "D": 1, "Rules": 1, "Lanes": 1}),
     "step-vector-n2": Point("rdx_step", {"N1": 2, "K": 12, "W": 38, "D": 1, "Rules": 1, "Lanes": 3}, slow=True),

@@ -29,7 +29,15 @@ from cocotb.triggers import FallingEdge, ReadOnly, Timer
 import second
 from raydix import coverpoints, formats
 from raydix.rtl import (
-    GENERATED_CONTROL, ROOT, RTL, TRACE_CONTROL, environment, has_fst, sources, top_modules, top_sources,
+    GENERATED_CONTROL,
+    ROOT,
+    RTL,
+    TRACE_CONTROL,
+    environment,
+    has_fst,
+    sources,
+    top_modules,
+    top_sources,
 )  # fmt: skip
 
 BUILD = ROOT / "build" / "tb"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The latencies of ``rtl/rdx_pkg.sv``, in clocks."""
 
-from raydix.formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS
+from raydix.formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS, SWIRL_ITERATIONS
 
 CERTIFIED = 1  # the mask of rules with which the paper rule is not built
 NORMALIZE = 2
@@ -9,6 +9,9 @@ TURN = 6
 TUBE = LENGTH_ITERATIONS + 6
 VECSUM = ANGLE_ITERATIONS + 1 + TURN + TUBE + 6
 BOUND = 2
+CONSTANT = 2
+SWIRL_SIDE, SWIRL_TURN, SWIRL_LEGS, SWIRL_SLOPE, SWIRL_CHORD, SWIRL_END, SWIRL_GRADIENT = 3, 6, 6, 3, 3, 13, 8
+SWIRL = SWIRL_ITERATIONS + 1 + SWIRL_TURN + SWIRL_END + 1 + SWIRL_GRADIENT
 
 
 def phases(points, lanes):

@@ -124,7 +124,7 @@ async def equals_picture(dut):
         scene = load_scene(SCENES / f"{name}.toml", 24, 18)
         frame = with_enters(scene, trace_golden(compile_scene(scene, Config()), Config()))
         near = layers_of(scene, frame, 4)
-        _, rgb = paint(scene, frame, near)
+        _, rgb = paint(scene, frame, near, True)
         await write_materials(dut, {(bank, s): m for s, m in enumerate(materials_of(scene, frame))})
         dut.ambient_i.value = int(units([scene.light.ambient])[0])
         bench.Port(dut, "background_i").write([int(v) for v in units(scene.background.color)])

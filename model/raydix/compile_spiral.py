@@ -144,10 +144,10 @@ class Oversize(ValueError):
     """A constant does not fit its word; the text says which and what would fit."""
 
 
-def _words(values: dict) -> list[int]:
-    """Values by name to words in the order of FORM; rounded to nearest."""
+def rounded(table, values: dict) -> list[int]:
+    """Values by name to words in the order of a table of fields; rounded to nearest. Raises :class:`Oversize`."""
     words = []
-    for field in FORM:
+    for field in table:
         integer, fraction = (int(n) for n in field.token[1:].split("p"))
         signed = field.token[0] == "s"
         limit = 1 << (integer + fraction - signed)
@@ -193,7 +193,7 @@ def form_words(surface, points, length, low, high, cut, n1):
         **_turns(tube, across, middle),
         **_balls(tube, needs_general(surface), scale, middle, across, squared),
     }
-    return _words(values), middle, factors
+    return rounded(FORM, values), middle, factors
 
 
 def spiral_words(surface, h, e, low, high, cut, columns, rows, n1):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is generated from ``rtl/rdx_csr.rdl``: the register block, a C header, HTML, a Python map, tables of the docs.
 
-The Python map is made here, by a walk through the compiled description: PeakRDL's own for Python is a package of classes that
-needs a library of its own at run time, where names, addresses and fields are all that a host or a test wants.
+The Python map is made here, by a walk through the compiled description: PeakRDL's own for Python makes a package of
+classes, where names, addresses and fields are all that a host or a test wants.
 """
 
 import argparse
@@ -113,7 +113,11 @@ def errors(root) -> dict[str, tuple[int, str]]:
 
 def _python(root) -> str:
     """Text of the Python map."""
-    lines = ["# Generated from rtl/rdx_csr.rdl by raydix.csr.", '"""Registers, windows and error codes of rdx_csr."""', ""]
+    lines = [
+        "# Generated from rtl/rdx_csr.rdl by raydix.csr.",
+        '"""Registers, windows and error codes of rdx_csr."""',
+        "",
+    ]
     for name, table in (("REGISTERS", registers(root)), ("WINDOWS", windows(root)), ("ERRORS", errors(root))):
         lines += [f"{name} = {{", *(f"    {key!r}: {value!r}," for key, value in table.items()), "}"]
     return "\n".join([*lines, ""])

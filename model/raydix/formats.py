@@ -2,7 +2,8 @@
 """Number formats and field widths: the one table.
 
 The blocks between markers in ``rtl/rdx_pkg.sv``, ``rdx_form.svh``, ``rdx_form.sv``, ``rdx_cordic.sv`` (its angles),
-``rdx_rsqrt.sv``, ``rdx_srgb.sv`` (their tables) and ``docs/number-formats.md`` are generated from here:
+``rdx_rsqrt.sv``, ``rdx_srgb.sv``, ``rdx_swirl_chord.sv`` (their tables), ``rdx_material.svh``, ``rdx_swirl.svh`` and
+``docs/number-formats.md`` are generated from here:
 ``python -m raydix.formats --write``; without ``--write`` the exit status tells whether they agree.
 
 A format token is ``s<I>p<F>`` (signed, ``I`` integer bits with the sign, ``F`` fractional) or ``u<I>p<F>``.
@@ -123,8 +124,43 @@ MATERIAL = (
     Field("q2_constant", "s1p17", "of Q2"),
 )
 MATERIAL_WORDS = 64  # places for the constants of a material
+# Of a vector sum, where the quadrics of an algebraic surface would stand. Lengths carry K, as in FORM; G is for the
+# evaluator of every spiral only, H for that of helices only.
+SWIRL = (
+    Field("turn_z", "s13p19", "turns per height"),
+    Field("turn_rho", "s13p19", "G: turns per radius"),
+    Field("turn_offset", "s16p16", "turn at the coordinate origin"),
+    Field("turns", "s8p22", "T, length of the spiral"),
+    Field("radius", "s4p22", "centre curve's radius at its start"),
+    Field("height", "s4p22", "centre curve's height at its start"),
+    Field("tube", "s4p22", "G: tube's radius at its start"),
+    Field("pitch", "s6p26", "rise of a turn"),
+    Field("radius_growth", "s6p26", "G: growth of the centre curve's radius in a turn"),
+    Field("tube_growth", "s6p26", "G: growth of the tube's radius in a turn"),
+    Field("scale", "u3p0", "E + 1: the tube's largest radius is 0.49 to 0.98 times 2^-E, or less"),
+    Field("pitch_radian", "s3p15", "rise of a radian"),
+    Field("radius_radian", "s3p15", "G: growth of the centre curve's radius in a radian"),
+    Field("tube_radian", "s3p15", "G: growth of the tube's radius in a radian"),
+    Field("near", "s1p17", "c: the largest power of two with which these four fit"),
+    Field("bend", "s1p17", "c 2^E (R_growth^2 + pitch^2 - r_growth^2) / 4 pi"),
+    Field("start_reach", "s1p17", "c 2^E / pi times the centre curve's radius at its start"),
+    Field("stop_reach", "s1p17", "G: the same at its end"),
+    Field("start", "s2p22", "centre of the ball at the start; x and y without K", 3),
+    Field("stop", "s2p22", "centre of the ball at the end", 3),
+    Field("split", "s2p22", "H: height from which on the upper end is the nearer"),
+    Field("down", "u1p0", "H: 1: the start is the upper end"),
+    Field("plane", "s1p17", "G: beyond this plane the ball at the end is the nearer: per x, y, z", 3),
+    Field("plane_offset", "s4p28", "G: less this"),
+)
+SWIRL_FIRST = 16  # constant of a material that is the first of these
+SWIRL_FRAC = 22
+SWIRL_WIDTH = 4 + SWIRL_FRAC
+SWIRL_ITERATIONS = 16
+SWIRL_CHORDS = 64  # intervals of the table of sin^2
 FORM_INDEX = {field.name: sum(f.count for f in FORM[:i]) for i, field in enumerate(FORM)}
 MATERIAL_INDEX = {field.name: sum(f.count for f in MATERIAL[:i]) for i, field in enumerate(MATERIAL)}
+SWIRL_INDEX = {field.name: sum(f.count for f in SWIRL[:i]) for i, field in enumerate(SWIRL)}
+SWIRL_WORDS = sum(field.count for field in SWIRL)
 FORM_WORDS = sum(field.count for field in FORM)
 VECTOR_WORDS = HEADER_WORDS + 3 * COORD_LANES + FORM_WORDS
 
@@ -157,6 +193,10 @@ TABLE = (
     Constant("UnitFrac", UNIT_FRAC, "", "fractional bits of such a number"),
     Constant("NormalWidth", NORMAL_WIDTH, "s1p17", "component of a normal or of a constant of a material"),
     Constant("MaterialWords", MATERIAL_WORDS, "", "places for the constants of a material, 32 bits each"),
+    Constant("SwirlFirst", SWIRL_FIRST, "", "constant of a material that is the first of a vector sum's gradient"),
+    Constant("SwirlFrac", SWIRL_FRAC, "", "fractional bits of lengths, and of turns, in that evaluator"),
+    Constant("SwirlWidth", SWIRL_WIDTH, "s4p22", "length in it"),
+    Constant("SwirlIterations", SWIRL_ITERATIONS, "", "of its CORDIC"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
     Constant("VectorWords", VECTOR_WORDS, "", "words of a descriptor of a vector-sum surface", False),
     Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2", False),
@@ -255,6 +295,46 @@ def material_table() -> str:
     return markdown_table(["first", "constant", "count", "format", "meaning"], rows)
 
 
+def _camel(name: str) -> str:
+    return "".join(part.capitalize() for part in name.split("_"))
+
+
+def swirl_types() -> str:
+    """Numbers and types of the constants of a vector sum's gradient."""
+    from .swirl import FLAT  # which takes the numbers from here
+
+    lines = [f"localparam int unsigned SwirlChords = {SWIRL_CHORDS};  // intervals of a table"]
+    lines += [f"localparam int unsigned SwirlFlat = {FLAT};  // u0p17: 1/K^2"]
+    for field in SWIRL:
+        number = SWIRL_FIRST + SWIRL_INDEX[field.name]
+        sign = "signed " if field.token[0] == "s" else ""
+        lines += [
+            f"// {field.token}: {field.meaning}",
+            f"localparam int unsigned Swirl{_camel(field.name)} = {number};",
+        ]
+        lines += [f"typedef logic {sign}[{field.width - 1}:0] swirl_{field.name}_t;"]
+    return "\n".join(lines) + "\n"
+
+
+def chord_tables() -> str:
+    """The table of sin^2 as SystemVerilog constants."""
+    from .swirl import CHORD_GAINS, CHORDS
+
+    tables = []
+    for name, values in (("Chords", CHORDS), ("Gains", CHORD_GAINS)):
+        text = ",\n".join(f"      18'h{v & 0x3FFFF:05x}" for v in values)
+        tables.append(f"  localparam logic signed [17:0] {name}[SwirlChords] = '{{\n{text}\n  }};\n")
+    return "".join(tables)
+
+
+def swirl_table() -> str:
+    """The constants of a vector sum's gradient as a Markdown table."""
+    rows = [
+        [str(SWIRL_FIRST + SWIRL_INDEX[f.name]), f"`{f.name}`", str(f.count), f"`{f.token}`", f.meaning] for f in SWIRL
+    ]
+    return markdown_table(["first number", "constant", "words", "format", "meaning"], rows)
+
+
 def form_table() -> str:
     """The constants of a vector-sum surface as a Markdown table."""
     rows = [[str(FORM_INDEX[f.name]), f"`{f.name}`", str(f.count), f"`{f.token}`", f.meaning] for f in FORM]
@@ -280,6 +360,8 @@ def drift(write: bool = False) -> list[Path]:
         sv("rdx_pkg.sv", "", systemverilog()),
         (ROOT / "rtl" / "rdx_form.svh", f"// {BEGIN}: form\n", f"// {END}: form\n", form_struct()),
         sv("rdx_cordic.sv", ": angles", angle_table()),
+        sv("rdx_swirl_chord.sv", ": chords", chord_tables()),
+        (ROOT / "rtl" / "rdx_swirl.svh", f"// {BEGIN}: swirl\n", f"// {END}: swirl\n", swirl_types()),
         (ROOT / "rtl" / "rdx_form.sv", f"      // {BEGIN}: form\n", f"      // {END}: form\n", form_loader()),
         (ROOT / "rtl" / "rdx_material.svh", f"// {BEGIN}: material\n", f"// {END}: material\n", material_places()),
         sv("rdx_rsqrt.sv", ": roots", root_table()),
@@ -287,6 +369,7 @@ def drift(write: bool = False) -> list[Path]:
         md("", markdown()),
         md(": material", material_table()),
         md(": form", form_table()),
+        md(": swirl", swirl_table()),
     )
     return sorted({path for path, begin, end, body in targets if replace_block(path, begin, end, body, write)})
 

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 import mpmath as mp
 
 from .compile import PRECISION, _box, _cross, _unit, _vector
-from .formats import MATERIAL_INDEX, MATERIAL_WORDS, UNIT_FRAC
+from .compile_swirl import swirl_words
+from .formats import MATERIAL_INDEX, MATERIAL_WORDS, SWIRL_FIRST, UNIT_FRAC
 from .gradient import CONSTANT_FRAC
 from .scene import Scene
 from .surfaces import Quadric, form
@@ -31,7 +32,8 @@ def material_words(scene: Scene, surface, origin: Sequence[float], unit: Sequenc
             "vector": [int(surface.type == "spiral")],
         }
         if surface.type == "spiral":
-            parts |= _swirl(surface, origin, unit)
+            swirl = swirl_words(surface, origin, unit)
+            words[SWIRL_FIRST : SWIRL_FIRST + len(swirl)] = swirl
         else:
             parts |= _quadrics(surface, origin, unit)
     for name, values in parts.items():
@@ -101,8 +103,3 @@ def _quadrics(surface, origin, unit) -> dict[str, list[int]]:
     both = factors[0] * factors[1] * LARGEST / mp.ldexp(1, CONSTANT_FRAC)  # each factor comes with LARGEST once
     parts["q3_matrix"], parts["q3_linear"] = _rounded(matrix3, both), _rounded(linear3, both)
     return parts
-
-
-def _swirl(surface, origin, unit) -> dict[str, list[int]]:
-    """Constants of a vector sum's gradient, from the place of q3_matrix on: ``rdx_swirl``, which is not there yet."""
-    return {}

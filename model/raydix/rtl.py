@@ -68,7 +68,7 @@ def top_modules() -> list[str]:
 
 
 def top_sources() -> list[Path]:
-    """The RTL files in the order of ``rtl/rdx_top.f``, generated ones included; these are made if they are not there."""
+    """The RTL files in the order of ``rtl/rdx_top.f``; the generated ones are made if they are not there."""
     csr.generate()
     return [*sources(), *((RTL / line).resolve() for line in _top_lines())]
 

@@ -12,8 +12,8 @@ import numpy as np
 from .blend import add_layer, finish
 from .compile import PRECISION, camera_of
 from .config import Config
-from .formats import COORD_FRAC, MATERIAL_INDEX, MATERIAL_WORDS, UNIT_FRAC
-from .gradient import CONSTANT_FRAC, gradient
+from .formats import COORD_FRAC, MATERIAL_INDEX, MATERIAL_WORDS, SWIRL_FIRST, UNIT_FRAC
+from .gradient import gradient
 from .hits import FrameHits
 from .kernel import kernel, zeros
 from .layers import Layers, layers_of
@@ -22,6 +22,7 @@ from .material import material_words
 from .scene import Scene
 from .srgb import srgb
 from .surfaces import normal_direction
+from .swirl import swirl
 
 ONE = 1 << UNIT_FRAC
 LAYERS = 4  # of a pixel, if not asked for otherwise
@@ -100,28 +101,8 @@ def materials_of(scene: Scene, frame: FrameHits) -> np.ndarray:
     return materials
 
 
-def _swirls(scene: Scene, frame: FrameHits, layers: Layers) -> np.ndarray:
-    """Gradients of the vector sums' layers in scaled coordinates, s1p17, at their places in the flat list of hits.
-
-    From float64, until the integer kernel of ``rdx_swirl`` takes this place.
-    """
-    used = np.zeros(layers.t.size, bool)
-    for layer in range(layers.index.shape[1]):
-        used[layers.index[layers.count > layer, layer]] = True
-    out, base = np.zeros((layers.t.size, 3), np.int64), 0
-    for hits in frame.surfaces:
-        if hits.surface.is_vector_sum:
-            at = base + np.nonzero(used[base : base + hits.t.size])[0]
-            surface = scene.surfaces[hits.surface.index]
-            steep = normal_direction(surface, _local(hits.surface, layers.point[at])) * hits.surface.unit
-            largest = np.abs(steep).max(axis=1, keepdims=True, initial=0)
-            out[at] = np.rint(steep / np.where(largest > 0, largest, 1) * ((1 << CONSTANT_FRAC) - 1))
-        base += hits.t.size
-    return out
-
-
 @kernel
-def _paint(count, surfaces, index, points, enters, swirls, materials, ambient, background, degree, work, linear, rgb):
+def _paint(count, surfaces, index, points, enters, materials, ambient, background, degree, general, work, linear, rgb):
     """Linear intensities (P, 3), u1p16, and codes of P pixels from their layers."""
     room, shade, total = work[:15], work[15:18], work[18:]
     for pixel in range(count.size):
@@ -131,8 +112,8 @@ def _paint(count, surfaces, index, points, enters, swirls, materials, ambient, b
         for layer in range(count[pixel]):
             material, hit = materials[surfaces[pixel, layer]], index[pixel, layer]
             if material[AT_VECTOR]:
-                for axis in range(3):
-                    room[axis] = int(swirls[hit, axis])
+                x, y, z = int(points[hit, 0]), int(points[hit, 1]), int(points[hit, 2])
+                swirl(x, y, z, material[SWIRL_FIRST:], general, room)
             else:
                 for axis in range(3):
                     room[12 + axis] = int(points[hit, axis])
@@ -146,16 +127,17 @@ def _paint(count, surfaces, index, points, enters, swirls, materials, ambient, b
             rgb[pixel, channel] = srgb(total[channel])
 
 
-def paint(scene: Scene, frame: FrameHits, layers: Layers) -> tuple[np.ndarray, np.ndarray]:
-    """Linear intensities (P, 3), u1p16 in int32, and sRGB codes (P, 3), uint8."""
+def paint(scene: Scene, frame: FrameHits, layers: Layers, general: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Linear intensities (P, 3), u1p16 in int32, and sRGB codes (P, 3), uint8.
+
+    general  spirals' gradients are those of the evaluator for every spiral
+    """
     pixels = layers.count.size
     linear, rgb = np.empty((pixels, 3), np.int32), np.empty((pixels, 3), np.uint8)
-    vector = any(hits.surface.is_vector_sum for hits in frame.surfaces)
-    swirls = _swirls(scene, frame, layers) if vector else np.zeros((0, 3), np.int64)
     background = units(scene.background.color)
     ambient = int(units([scene.light.ambient])[0])
-    _paint(layers.count, layers.surface, layers.index, layers.point, layers.enters, swirls, materials_of(scene, frame),
-           ambient, background, 4, zeros(WORK), linear, rgb)  # fmt: skip
+    _paint(layers.count, layers.surface, layers.index, layers.point, layers.enters, materials_of(scene, frame),
+           ambient, background, 4, int(general), zeros(WORK), linear, rgb)  # fmt: skip
     return linear, rgb
 
 
@@ -182,7 +164,7 @@ def compose(scene: Scene, frame: FrameHits, config: Config, layers: int = LAYERS
         ulp[s.index], start[s.index] = (s.far - s.near) * 2.0**-config.digits, s.near
         of = np.nonzero(surface == s.index)[0]
         normal[of] = _normals(scene, hits, near.point[index[of]], basis, at[of] % width, at[of] // width)
-    linear, rgb = paint(scene, frame, near)
+    linear, rgb = paint(scene, frame, near, config.vecsum == "general")
     return Frame(
         plane(start[surface] + (t + 0.5) * ulp[surface], np.inf, np.float64),
         plane(t, -1, np.int64),

@@ -30,16 +30,7 @@ using Trace = VerilatedVcdC;
 #define RDX_TRACE
 #endif
 
-// Layout known to model/raydix/rtl.py
-struct Record {
-    std::uint16_t x, y;
-    std::uint8_t surface, hit, last, enters;
-    std::uint32_t t;
-    std::int32_t depth;
-    std::int32_t point[3];
-    std::uint32_t steps;
-};
-static_assert(sizeof(Record) == 32);
+#include "record.h"
 
 static int fail(const char* what, const char* which = "") {
     std::fprintf(stderr, "frame: %s%s\n", what, which);
