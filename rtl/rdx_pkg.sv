@@ -66,6 +66,8 @@ package rdx_pkg;
   localparam int unsigned SwirlWidth = 26;
   // of its CORDIC
   localparam int unsigned SwirlIterations = 16;
+  // iteration of it from which on the radius stays as it is
+  localparam int unsigned SwirlStill = 14;
   // constants of a vector-sum surface
   localparam int unsigned FormWords = 77;
   // END generated

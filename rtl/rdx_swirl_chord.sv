@@ -2,7 +2,7 @@
 // sin^2(pi v)/v: what a chord's square is worth for a turn, by a table and linear interpolation.
 //
 // Formats    turns_i: v, u0p21 of half a turn: 0 to 1/2. chord_o: u3p15, at most 2.28.
-// Rounding   the table to nearest, the product down.    Error   below 2^-12.3 (tb/test_swirl_chord.py)
+// Rounding   the table to nearest, the product down.    Error   below 2^-11.5 (tb/test_swirl_chord.py)
 // Timing     latency 3 clocks, one value a clock; no reset.
 // Model      model/raydix/swirl.py (chord)
 `default_nettype none

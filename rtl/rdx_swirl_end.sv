@@ -153,6 +153,7 @@ module rdx_swirl_end #(
       .data_o(bend)
   );
   wire normal_t  side = normal_t'(side_i >>> (SlopeWidth - NormalWidth));
+  wire normal_t  leaning = normal_t'(leaning_q >>> NormalWidth);
   wire product_t bent = bend_q >>> 2;
   wire product_t lever = lever_q >>> 1;
   always_ff @(posedge clk_i) begin
@@ -163,7 +164,7 @@ module rdx_swirl_end #(
     leaning_q <= stop_q[9] ? sum_t'(bent) - sum_t'(lean_q) : sum_t'(bent) + sum_t'(lean_q);
     // ---- and the sum ----
     leaning_qq <= product_t'(leaning_q >>> 2);
-    lever_q <= product_t'(leaning_q >>> NormalWidth) * product_t'(distance_q[9]);
+    lever_q <= product_t'(leaning) * product_t'(distance_q[9]);
     sum_q <= sum_t'(pull_q[4]) + (small_q[11] ? sum_t'(leaning_qq) : sum_t'(lever));
   end
   logic far_qq;

@@ -6,8 +6,8 @@
 // length and once for the coordinate.
 //
 // Formats    point_i: s2p22, stop_i and ball_i with it. outwards_i, side_i, upwards_i: s3p25, a clock later. up_i:
-//            distance from the axis over K, s2p16, three clocks later. gradient_o: s1p17; the largest component has no
-//            sign bit too many, unless it lacks more than 15.
+//            distance from the axis over K, s2p16, three clocks later. gradient_o: s1p17; at most 7 sign bits are
+//            shifted out: more there are only next to the axis.
 // Rounding   floor.    Overflow   cannot happen.
 // Timing     latency rdx_pkg::SwirlGradientLatency = 8 clocks, one point a clock; material_i two clocks before. No
 //            reset.
@@ -119,7 +119,7 @@ module rdx_swirl_gradient #(
       .WIn  (Width),
       .WOut (NormalWidth),
       .Count(3),
-      .Limit(15)
+      .Limit(7)
   ) u_gradient (
       .clk_i,
       .en_i(1'b1),

@@ -35,6 +35,7 @@ module rdx_swirl_polar (
   rdx_cordic #(
       .W(SwirlWidth),
       .Iterations(SwirlIterations),
+      .Still(SwirlStill),
       .Angle(1'b1)
   ) u_polar (
       .clk_i,

@@ -152,6 +152,7 @@ SWIRL_FIRST = 16  # constant of a material that is the first of these
 SWIRL_FRAC = 22
 SWIRL_WIDTH = 4 + SWIRL_FRAC
 SWIRL_ITERATIONS = 16
+SWIRL_STILL = 14
 SWIRL_CHORDS = 64  # intervals of the table of sin^2
 FORM_INDEX = {field.name: sum(f.count for f in FORM[:i]) for i, field in enumerate(FORM)}
 MATERIAL_INDEX = {field.name: sum(f.count for f in MATERIAL[:i]) for i, field in enumerate(MATERIAL)}
@@ -192,6 +193,7 @@ TABLE = (
     Constant("SwirlFrac", SWIRL_FRAC, "", "fractional bits of lengths, and of turns, in that evaluator"),
     Constant("SwirlWidth", SWIRL_WIDTH, "s4p22", "length in it"),
     Constant("SwirlIterations", SWIRL_ITERATIONS, "", "of its CORDIC"),
+    Constant("SwirlStill", SWIRL_STILL, "", "iteration of it from which on the radius stays as it is"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
     Constant("VectorWords", VECTOR_WORDS, "", "words of a descriptor of a vector-sum surface", False),
     Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2", False),
