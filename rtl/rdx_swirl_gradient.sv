@@ -2,8 +2,8 @@
 // The gradient at a point of the tube or of a ball, scaled to 18 bits.
 //
 // Tube: the gradient turned to azimuth 0 (outwards, side, upwards) is turned back by x, y and multiplied by the
-// distance from the axis. Ball: the vector from its centre, turned by nothing. Upwards the gradient loses K twice: once for the
-// length and once for the coordinate.
+// distance from the axis. Ball: the vector from its centre, turned by nothing. Upwards the gradient loses K twice: once
+// for the length and once for the coordinate.
 //
 // Formats    point_i: s2p22, stop_i and ball_i with it. outwards_i, side_i, upwards_i: s3p25, a clock later. up_i:
 //            distance from the axis over K, s2p16, three clocks later. gradient_o: s1p17; at most 7 sign bits are

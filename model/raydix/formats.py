@@ -277,7 +277,7 @@ def chord_tables() -> str:
     tables = []
     for name, values in (("Chords", CHORDS), ("Gains", CHORD_GAINS)):
         words = [f"18'h{v & 0x3FFFF:05x}" for v in values]
-        text = ",\n".join("      " + ", ".join(words[i : i + 8]) for i in range(0, len(words), 8))
+        text = ",\n".join(f"      {word}" for word in words)
         tables.append(f"  localparam logic signed [17:0] {name}[SwirlChords] = '{{\n{text}\n  }};\n")
     return "".join(tables)
 
