@@ -37,6 +37,7 @@ rdx_ends.sv
 rdx_algebraic.sv
 rdx_vector.sv
 rdx_constant.sv
+rdx_swirl_pkg.sv
 rdx_swirl_polar.sv
 rdx_swirl_turn.sv
 rdx_swirl_side.sv

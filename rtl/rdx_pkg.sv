@@ -58,16 +58,6 @@ package rdx_pkg;
   localparam int unsigned NormalWidth = 18;
   // places for the constants of a material, 32 bits each
   localparam int unsigned MaterialWords = 64;
-  // constant of a material that is the first of a vector sum's gradient
-  localparam int unsigned SwirlFirst = 16;
-  // fractional bits of lengths, and of turns, in that evaluator
-  localparam int unsigned SwirlFrac = 22;
-  // s4p22: length in it
-  localparam int unsigned SwirlWidth = 26;
-  // of its CORDIC
-  localparam int unsigned SwirlIterations = 16;
-  // iteration of it from which on the radius stays as it is
-  localparam int unsigned SwirlStill = 14;
   // constants of a vector-sum surface
   localparam int unsigned FormWords = 77;
   // END generated
@@ -165,17 +155,6 @@ package rdx_pkg;
     logic [31:0] data;
   } material_write_t;
 
-  // The gradient of a vector sum: lengths, coordinates, azimuth and place in turns, slopes (s3p25).
-  localparam int unsigned SwirlCoordWidth = 2 + SwirlFrac;
-  localparam int unsigned SlopeWidth = 28;
-  typedef logic signed [SwirlWidth-1:0] swirl_t;
-  typedef logic signed [SwirlCoordWidth-1:0] swirl_coord_t;
-  typedef logic [SwirlFrac-1:0] azimuth_t;
-  typedef logic signed [SlopeWidth-1:0] slope_t;
-  `include "rdx_swirl.svh"
-  typedef swirl_turns_t place_t;
-  typedef swirl_pitch_t swirl_growth_t;
-
   // A layer of a pixel on its way to the shading, or a pixel without one.
   typedef struct packed {
     logic         shade;    // 0: nothing was hit
@@ -212,22 +191,6 @@ package rdx_pkg;
   localparam int unsigned TubeLatency = LengthIterations + 6;
   localparam int unsigned BallLatency = 2 * LengthIterations + 4;
   localparam int unsigned VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 6;
-
-  // Latency of rdx_constant.
-  localparam int unsigned ConstantLatency = 2;
-
-  // Latencies of the parts of rdx_swirl, and when its stages begin, after the point.
-  localparam int unsigned SwirlSideLatency = 3;
-  localparam int unsigned SwirlTurnLatency = 6;
-  localparam int unsigned SwirlLegsLatency = 6;
-  localparam int unsigned SwirlSlopeLatency = 3;
-  localparam int unsigned SwirlEndLatency = 13;
-  localparam int unsigned SwirlGradientLatency = 8;
-  localparam int unsigned SwirlSide = SwirlIterations;
-  localparam int unsigned SwirlLegs = SwirlIterations + 1 + SwirlTurnLatency;
-  localparam int unsigned SwirlSlope = SwirlLegs + SwirlLegsLatency;
-  localparam int unsigned SwirlChoice = SwirlLegs + SwirlEndLatency + 1;
-  localparam int unsigned SwirlLatency = SwirlChoice + SwirlGradientLatency;
 
   // Latency of rdx_bound: sums and bounds, comparisons.
   localparam int unsigned BoundLatency = 2;

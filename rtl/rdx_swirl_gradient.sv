@@ -9,7 +9,7 @@
 //            distance from the axis over K, s2p16, three clocks later. gradient_o: s1p17; at most 7 sign bits are
 //            shifted out: more there are only next to the axis.
 // Rounding   floor.    Overflow   cannot happen.
-// Timing     latency rdx_pkg::SwirlGradientLatency = 8 clocks, one point a clock; material_i two clocks before. No
+// Timing     latency SwirlGradientLatency = 8 clocks, one point a clock; material_i two clocks before. No
 //            reset.
 // Model      model/raydix/swirl.py (swirl)
 `default_nettype none
@@ -17,19 +17,20 @@
 module rdx_swirl_gradient #(
     parameter int unsigned Surfaces = 1
 ) (
-    input  wire logic                     clk_i,
-    input  wire rdx_pkg::material_write_t write_i,
-    input  wire rdx_pkg::material_t       material_i,
-    input  wire rdx_pkg::swirl_coord_t    point_i   [3],
-    input  wire logic                     stop_i,
-    input  wire logic                     ball_i,
-    input  wire rdx_pkg::slope_t          outwards_i,
-    input  wire rdx_pkg::slope_t          side_i,
-    input  wire rdx_pkg::slope_t          upwards_i,
-    input  wire rdx_pkg::normal_t         up_i,
-    output rdx_pkg::normal_t              gradient_o[3]
+    input  wire logic                        clk_i,
+    input  wire rdx_pkg::material_write_t    write_i,
+    input  wire rdx_pkg::material_t          material_i,
+    input  wire rdx_swirl_pkg::swirl_coord_t point_i   [3],
+    input  wire logic                        stop_i,
+    input  wire logic                        ball_i,
+    input  wire rdx_swirl_pkg::slope_t       outwards_i,
+    input  wire rdx_swirl_pkg::slope_t       side_i,
+    input  wire rdx_swirl_pkg::slope_t       upwards_i,
+    input  wire rdx_pkg::normal_t            up_i,
+    output rdx_pkg::normal_t                 gradient_o[3]
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Product = 2 * NormalWidth;
   localparam int unsigned Drop = 7;

@@ -32,10 +32,18 @@ def check(*command, **keywords):
 def test_verilator_wall(name):
     """verilator -Wall says nothing."""
     values = [f"-G{key}={value}" for key, value in parameters(CONFIGS[name]).items()]
-    text = check(
-        "verilator", "--lint-only", "-Wall", "--assert", f"-I{RTL}", *values, "--top-module", "rdx_core", *sources()
-    )
+    options = ["--lint-only", "-Wall", "--assert", f"-I{RTL}", *values, "--top-module", "rdx_core"]
+    text = check("verilator", *options, *(p for p in sources() if not p.name.startswith("rdx_swirl")))
     assert "%Warning" not in text
+
+
+@pytest.mark.parametrize("surfaces", [1, 8])
+@pytest.mark.parametrize("general", [0, 1])
+def test_verilator_wall_swirl(general, surfaces):
+    """verilator -Wall says nothing of rdx_swirl, which the core has not; rdx_pkg has parameters of the core."""
+    options = ["--lint-only", "-Wall", "-Wno-UNUSEDPARAM", "--assert", f"-I{RTL}", "--top-module", "rdx_swirl"]
+    values = [f"-GGeneral={general}", f"-GSurfaces={surfaces}"]
+    assert "%Warning" not in check("verilator", *options, *values, *sources())
 
 
 SHELLS = [*sorted((ROOT / "tb" / "formal").iterdir()), *sorted((ROOT / "tb" / "cover").glob("*.sv*"))]
