@@ -58,4 +58,4 @@ def differs(number, inputs, **pairs):
     """Raise where one of the pairs (expected, got) differs."""
     lines = [f"{name}: expected {e}, got {g}" for name, (e, g) in pairs.items() if e != g]
     if lines:
-        raise bench.mismatch(number, inputs, lines)
+        raise bench.mismatch(number, {"given": inputs}, lines)

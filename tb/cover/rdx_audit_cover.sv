@@ -31,7 +31,7 @@ module rdx_audit_cover #(
   wire look = asked_q && second_q;
   wire first = look && fault_o == ErrorNone;
   `RDX_COVER(good, first && error == ErrorNone)
-  `RDX_COVER(roots, first && error == ErrorRoots)
+  `RDX_COVER(wrong_roots, first && error == ErrorRoots)
   `RDX_COVER(rectangle, first && error == ErrorRectangle)
   if (Rules != RuleBoth) begin : gen_rule
     `RDX_COVER(rule, first && error == ErrorRule)
