@@ -8,7 +8,7 @@ import pytest
 from cocotb.triggers import FallingEdge, ReadOnly
 
 import bench
-from entries import ENTRY, entry, meant, place
+from entries import entry, meant, place
 from raydix.formats import PIXEL_WIDTH, STEPS_WIDTH
 
 WRITTEN = 3  # clocks from a hit's transfer to its writing
