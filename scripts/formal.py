@@ -141,8 +141,11 @@ def commands(proof, broken):
 
 
 def prove(proof, folder, stem, broken):
-    """Ask ABC for all assertions of a graph. Of what is broken, random inputs for some seconds come first: the search goes
-    from assertion to assertion, and one that holds can take it long."""
+    """Ask ABC for all assertions of a graph.
+
+    What is broken gets random inputs for some seconds first: the search for a counterexample goes from assertion to
+    assertion, and one that holds can take it long.
+    """
     start = time.monotonic()
     if not (listed := names(folder, stem)):
         raise SynthError(f"{proof.top} asserts nothing")

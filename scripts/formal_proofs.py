@@ -18,7 +18,7 @@ class Proof:
     replace: tuple[tuple[str, str, str], ...] = ()  # changes that make the design smaller
     stages: int = 1  # of lemmas: the parameter Stage of the harness counts them
     depth: int = 20  # clocks in which covers are reached
-    limit: int = 120  # seconds that one run of ABC may take
+    limit: int = 600  # seconds that one run of ABC may take
 
 
 def halve(w, d):
