@@ -186,7 +186,7 @@ PROOFS = {
     "outside": outside(0, ("& face_bits);", "& (face_bits >> 1));")),
     "outside-faces": outside(1, ("boundaries_i[axis][j] > high_i[axis]", "boundaries_i[axis][j] >= high_i[axis]")),
     "fdiff": fdiff(64, 1, 2, 1),
-    "fdiff-closed": fdiff(16, 1, 2),
+    "fdiff-closed": fdiff(8, 1, 2),
     "fdiff-linear": fdiff(48, 0, 2),
     "bound": Proof(
         "formal_bound",
