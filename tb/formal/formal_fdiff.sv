@@ -12,7 +12,7 @@ module formal_fdiff #(
     parameter bit Quadratic = 1'b1,
     parameter int unsigned Places = 2,  // bits of x and y
     parameter int unsigned Stage = 3,
-    parameter bit Sums = 1'b0  // the polynomial as the sums of its differences: the same number, nearer to the registers
+    parameter bit Sums = 1'b0  // the polynomial as the sums of its differences, as the registers have it
 ) (
     input wire logic        clk_i,
     input wire logic        load_i,
