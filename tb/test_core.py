@@ -75,7 +75,9 @@ async def render(dut, random, frame, idle, stall):
         while not done or quiet < 200:  # then nothing more may come
             before = len(sink.received)
             await FallingEdge(dut.clk_i)
-            done = sum(words[last] for words in sink.received) >= rays
+            ended = sum(words[last] for words in sink.received)
+            assert ended <= rays, f"{ended} rays have ended, {rays} were sent"
+            done = ended == rays
             quiet = quiet + 1 if len(sink.received) == before else 0
             assert quiet < SILENCE, f"no record for {quiet} clocks, {len(sink.received)} before"
 
