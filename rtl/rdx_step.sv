@@ -27,14 +27,15 @@ module rdx_step #(
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic           [3:0] phase_i,
-    input  wire rdx_pkg::form_t       form_i,
-    input  wire control_t             control_i,
-    input  wire segment_t             segment_i,
-    output control_t                  control_o,
-    output segment_t                  segment_o
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic            [3:0] phase_i,
+    input  wire rdx_pkg::form_t        form_i,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire control_t              control_i,
+    input  wire segment_t              segment_i,
+    output control_t                   control_o,
+    output segment_t                   segment_o
 );
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
@@ -107,7 +108,7 @@ module rdx_step #(
     );
     assign waits = control_i;
     assign possible = '0;
-    wire unused = &{1'b0, phase_i};
+    wire unused = &{1'b0, phase_i, modes_i};
   end else begin : gen_sample
     rdx_sample #(
         .N1(N1),
@@ -120,6 +121,7 @@ module rdx_step #(
         .rst_ni,
         .phase_i,
         .form_i,
+        .modes_i,
         .control_i,
         .segment_i,
         .pick_i(pick),
@@ -142,7 +144,7 @@ module rdx_step #(
   ) u_select (
       .clk_i,
       .cells_i(cells),
-      .excluded_i(outside | ~({J{1'b1}} << search[0].first)),
+      .excluded_i((modes_i.boxes ? outside : '0) | ~({J{1'b1}} << search[0].first)),
       .possible_i(possible),
       .last_i(search[0].last),
       .paper_i(search[0].paper),

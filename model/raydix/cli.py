@@ -41,6 +41,7 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
     parser.add_argument("--n1", type=int, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)")
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
+    parser.add_argument("--k-stop", type=int, metavar="K", help="steps to a hit in this frame (default: all)")
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
     parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
     parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
@@ -93,6 +94,7 @@ def _config(args: argparse.Namespace, scene: Scene) -> Config:
     return Config(
         n1=args.n1,
         steps=steps,
+        k_stop=args.k_stop,
         width=args.width,
         units=units,
         rules=args.rule,
