@@ -61,23 +61,20 @@ module rdx_step #(
   logic [N1-1:0] pick, next;
   segment_t cell_q;
 
-  // what the choice needs of the control part
-  typedef struct packed {
-    logic          last;   // level
-    logic          paper;
-    logic [N1-1:0] first;  // the digits of t_min at the level, 0 unless they are followed
-  } search_t;
-  function automatic search_t search_of(control_t control);
-    search_t search;
-    search.last  = control.level == 5'(K - 1);
-    search.paper = control.paper;
-    search.first = '0;
-    for (int unsigned k = 0; k < K; k++)
-    if (control.follow && control.level == 5'(k)) search.first = control.t_min[N1*(K-1-k)+:N1];
-    return search;
+  // the digits of t_min at a level, 0 unless they are followed
+  function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
+    first_cell = '0;
+    for (int unsigned k = 0; k < K; k++) if (follow && level == 5'(k)) first_cell = t_min[N1*(K-1-k)+:N1];
   endfunction
-
-  search_t search[1];  // when the cells are there
+  `define RDX_SEARCH(CONTROL) \
+    {CONTROL.level == 5'(K - 1), CONTROL.paper, first_cell(CONTROL.level, CONTROL.t_min, CONTROL.follow)}
+  `define RDX_LATE(NAME, TYPE, DEPTH, IN, OUT) \
+    rdx_delay #(.T(TYPE), .Depth(DEPTH)) NAME (.clk_i, .data_i(IN), .data_o(OUT));
+  localparam type search_t = logic [N1+1:0];
+  search_t search[1];  // what the choice needs of the control part, when the cells are there
+  logic last, paper;
+  logic [N1-1:0] first;
+  assign {last, paper, first} = search[0];
   control_t waits;  // what enters the line of the control part
   if (D > 1) begin : gen_split
     rdx_split #(
@@ -97,18 +94,10 @@ module rdx_step #(
         .cell_o(cell_q)
     );
     search_t entering[1];
-    assign entering[0] = search_of(control_i);
-    rdx_delay #(
-        .T(search_t),
-        .Depth(CellsLatency)
-    ) u_search (
-        .clk_i,
-        .data_i(entering),
-        .data_o(search)
-    );
+    assign entering[0] = `RDX_SEARCH(control_i);
+    `RDX_LATE(u_search, search_t, CellsLatency, entering, search)
     assign waits = control_i;
     assign possible = '0;
-    wire unused = &{1'b0, phase_i, modes_i};
   end else begin : gen_sample
     rdx_sample #(
         .N1(N1),
@@ -131,9 +120,8 @@ module rdx_step #(
         .possible_o(possible),
         .cell_o(cell_q)
     );
-    assign search[0] = search_of(waits);
+    assign search[0] = `RDX_SEARCH(waits);
   end
-
   // ---- choice: cells before t_min and cells outside of the box are passed over ----
   logic found, more;
   rdx_select #(
@@ -144,10 +132,10 @@ module rdx_step #(
   ) u_select (
       .clk_i,
       .cells_i(cells),
-      .excluded_i((modes_i.boxes ? outside : '0) | ~({J{1'b1}} << search[0].first)),
+      .excluded_i((modes_i.boxes ? outside : '0) | ~({J{1'b1}} << first)),
       .possible_i(possible),
-      .last_i(search[0].last),
-      .paper_i(search[0].paper),
+      .last_i(last),
+      .paper_i(paper),
       .found_o(found),
       .more_o(more),
       .pick_o(pick),
@@ -161,14 +149,7 @@ module rdx_step #(
   logic [N1-1:0] was_pick, was_next;
   assign choice[0] = {found, more, pick, next};
   assign {was_found, was_more, was_pick, was_next} = choice_q[0];
-  rdx_delay #(
-      .T(choice_t),
-      .Depth(PickLatency - 1)
-  ) u_choice (
-      .clk_i,
-      .data_i(choice),
-      .data_o(choice_q)
-  );
+  `RDX_LATE(u_choice, choice_t, PickLatency - 1, choice, choice_q)
   control_t chosen, picked_d, picked_q;
   rdx_line #(
       .W($bits(control_t)),
@@ -185,7 +166,7 @@ module rdx_step #(
       .K (K)
   ) u_pick (
       .control_i(chosen),
-      .first_i  (search_of(chosen).first),
+      .first_i  (first_cell(chosen.level, chosen.t_min, chosen.follow)),
       .found_i  (was_found),
       .more_i   (was_more),
       .pick_i   (was_pick),
@@ -213,7 +194,7 @@ module rdx_step #(
       .control_o,
       .segment_o
   );
-  wire unused_form = &{1'b0, form_i};
+  wire unused = &{1'b0, phase_i, form_i};
 
 endmodule
 

@@ -44,7 +44,7 @@ def model(dut, item):
 
 @cocotb.test
 async def equals_model(dut):
-    """An item a clock: cells and masks after N1*HalveStages clocks; Wait later the choice, pick_latency later the cell."""
+    """An item a clock: cells and masks after N1*HalveStages clocks, Wait later the choice, then the cell."""
     n1, width, degree, stages, wait = shape(dut)
     segment = bench.segment(width, degree)
     structs = dict(box_i=BOXES, segment_i=segment, cell_o=segment)

@@ -56,9 +56,6 @@ bind rdx_step rdx_step_cover #(
     .K(K),
     .D(D),
     .Rules(Rules)
-) u_cover (
-    .first(search[0].first),
-    .*
-);
+) u_cover (.*);
 
 `default_nettype wire
