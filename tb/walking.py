@@ -36,8 +36,8 @@ class Frame:
         fields = {name: self.random.getrandbits(1) for name in SKIPS[:-1]}
         fields |= {"last_x": self.width - 1, "last_y": self.height - 1, "rectangle": int(self.skip)}
         fields |= {"last_slot": max(0, len(self.descriptors) - 1), "empty": int(not self.descriptors)}
-        fields |= {"k_stop": self.random.getrandbits(6), "ambient": self.random.getrandbits(UNIT_FRAC)}
-        return fields | {"background": [self.random.getrandbits(UNIT_FRAC) for _ in range(3)]}
+        fields |= {"k_stop": self.random.getrandbits(6), "ambient": self.random.getrandbits(1 + UNIT_FRAC)}
+        return fields | {"background": [self.random.getrandbits(1 + UNIT_FRAC) for _ in range(3)]}
 
     def crossing(self, y):
         """Slots whose rectangles line ``y`` crosses."""
