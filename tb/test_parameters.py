@@ -54,6 +54,11 @@ CASES = [
     ("rdx_check", dict(MaxWidth=4097), "MaxWidth = 4097; allowed: 1 to 4096"),
     ("rdx_table", dict(Slots=0), "Slots = 0; allowed: 1 to 64"),
     ("rdx_table", dict(Slots=65), "Slots = 65; allowed: 1 to 64"),
+    ("rdx_blend", dict(Layers=0), "Layers = 0; allowed: 1 or more"),
+    ("rdx_gradient", dict(D=0), "D = 0; allowed: 2, 4"),
+    ("rdx_gradient", dict(D=3), "D = 3; allowed: 2, 4"),
+    ("rdx_fill", dict(WOut=1), "WOut = 1; allowed: 2 to 32"),
+    ("rdx_fill", dict(WOut=33), "WOut = 33; allowed: 2 to 32"),
     ("rdx_fifo", dict(Depth=1), "Depth = 1; allowed: a power of two, 2 or more"),
     ("rdx_fifo", dict(Depth=12), "Depth = 12; allowed: a power of two, 2 or more"),
     (
