@@ -11,7 +11,7 @@
 module rdx_count (
     input  wire logic                   clk_i,
     input  wire logic                   clear_i,
-    input  wire logic [5:0] k_stop_i,
+    input  wire logic             [5:0] k_stop_i,
     input  wire logic                   hit_valid_i,  // a record leaves the rings
     input  wire rdx_pkg::hit_t          hit_i,
     input  wire rdx_pkg::events_t       events_i,
