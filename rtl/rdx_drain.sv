@@ -5,7 +5,8 @@
 //
 // Formats    last_group_i: number of the line's last group. layer_o: see rdx_pkg::layer_t. whole_o: layer_o stands for all pixels of
 //            the group, none of which was hit.
-// Timing     a group is read ahead of need. Nothing begins a group unless room_i = 1 in the clock before; begin_o: one begins.
+// Timing     a group is read ahead of need. No group begins while room_i = 0; begin_o: one begins, its first layer is
+//            there a clock later.
 // Reset      control only; then a sweep of Groups clocks before ready_o.
 // Model      model/raydix/layers.py
 `default_nettype none

@@ -49,14 +49,8 @@ module rdx_layers #(
   localparam int unsigned Banks = 2 * Pixels;  // bank row * Pixels + pixel
   localparam type word_t = logic [$bits(count_t)+Layers*$bits(entry_t)-1:0];
   localparam type bank_t = logic [$clog2(Banks)-1:0];
-  if (Pixels != 1 << PixelBits || Layers < 1 || MaxWidth != Groups * Pixels) begin : gen_illegal
-    $fatal(
-        1,
-        "rdx_layers: Pixels = %0d, Layers = %0d, MaxWidth = %0d; allowed: powers of two, 1 or more, a multiple of Pixels",
-        Pixels,
-        Layers,
-        MaxWidth
-    );
+  if (Pixels != 1 << PixelBits || MaxWidth != Groups * Pixels) begin : gen_illegal
+    $fatal(1, "rdx_layers: Pixels = %0d, MaxWidth = %0d; allowed: a power of two, a multiple of it", Pixels, MaxWidth);
   end
 
   function automatic bank_t bank_of(logic row, pixel_t x);
@@ -121,6 +115,8 @@ module rdx_layers #(
   always_comb begin
     count = chosen[Layers*$bits(entry_t)+:$bits(count_t)];
     for (int unsigned i = 0; i < Layers; i++) entries[i] = chosen[i*$bits(entry_t)+:$bits(entry_t)];
+  end
+  always_comb begin
     for (int unsigned i = 0; i < Layers; i++) packed_entries[i*$bits(entry_t)+:$bits(entry_t)] = entries_d[i];
   end
   wire entry_t hit =

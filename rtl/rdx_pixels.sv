@@ -5,7 +5,7 @@
 //
 // Formats    pixel_i: R in bits 23:16, G, B; whole_i: it stands for all pixels of the beat. Stream: pixel p of a beat in
 //            tdata[24*p +: 24], tkeep three bits of each pixel; tuser: first beat of a frame, tlast: last beat of a line.
-// Timing     room_o: another beat may begin, in the clock after this one. The queue holds Depth beats.
+// Timing     room_o: another beat may begin in this clock. The queue holds Depth beats.
 // Reset      control only.
 // Model      none: it moves pixels
 `default_nettype none

@@ -56,6 +56,23 @@ CASES = [
     ("rdx_check", dict(MaxWidth=4097), "MaxWidth = 4097; allowed: 1 to 4096"),
     ("rdx_table", dict(Slots=0), "Slots = 0; allowed: 1 to 64"),
     ("rdx_table", dict(Slots=65), "Slots = 65; allowed: 1 to 64"),
+    ("rdx_blend", dict(Layers=0), "Layers = 0; allowed: 1 or more"),
+    ("rdx_gradient", dict(D=0), "D = 0; allowed: 2, 4"),
+    ("rdx_gradient", dict(D=3), "D = 3; allowed: 2, 4"),
+    ("rdx_fill", dict(WOut=1), "WOut = 1; allowed: 2 to 32"),
+    ("rdx_fill", dict(WOut=33), "WOut = 33; allowed: 2 to 32"),
+    ("rdx_fifo", dict(Depth=1), "Depth = 1; allowed: a power of two, 2 or more"),
+    ("rdx_fifo", dict(Depth=12), "Depth = 12; allowed: a power of two, 2 or more"),
+    (
+        "rdx_layers",
+        dict(Pixels=3, MaxWidth=48),
+        "Pixels = 3, MaxWidth = 48; allowed: a power of two, a multiple of it",
+    ),
+    (
+        "rdx_layers",
+        dict(Pixels=4, MaxWidth=50),
+        "Pixels = 4, MaxWidth = 50; allowed: a power of two, a multiple of it",
+    ),
 ]
 UNREACHABLE = set()
 
@@ -87,6 +104,6 @@ def test_every_check_is_tried():
     """Each $fatal of the sources has a case above, one for each side of a range."""
     checks = set()
     for file in written():
-        checks |= set(re.findall(r'\$fatal\(1, "(rdx_\w+: \w+)', file.read_text()))
+        checks |= set(re.findall(r'\$fatal\(\s*1,\s*"(rdx_\w+: \w+)', file.read_text()))
     tried = {f"{module}: {reason.split()[0]}" for module, _, reason in CASES}
     assert checks - UNREACHABLE == tried

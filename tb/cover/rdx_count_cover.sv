@@ -13,9 +13,8 @@ module rdx_count_cover (
 );
   wire last = hit_valid_i && hit_i.last && !clear_i;
   `RDX_COVER(cleared_with_events, clear_i && events_i != '0 && hit_valid_i)
-  `RDX_COVER(
-      all_events,
-      !clear_i && &{events_i.hidden, events_i.rootless, events_i.beyond, events_i.visible, events_i.lost, events_i.stalled})
+  wire all = &{events_i.hidden, events_i.rootless, events_i.beyond, events_i.visible, events_i.lost, events_i.stalled};
+  `RDX_COVER(all_events, !clear_i && all)
   `RDX_COVER(no_event, !clear_i && events_i == '0)
   `RDX_COVER(hit_that_is_not_last, hit_valid_i && hit_i.hit && !hit_i.last)
   `RDX_COVER(last_without_hit, last && !hit_i.hit)
