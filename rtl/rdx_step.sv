@@ -44,7 +44,6 @@ module rdx_step #(
   localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes);
   localparam int unsigned SelectLatency = select_latency(N1, Rules);
   localparam int unsigned PickLatency = pick_latency(N1, D);
-
   if (K < 1 || N > 32) begin : gen_illegal_k
     $fatal(1, "rdx_step: K = %0d; allowed: 1 to %0d (N1*K is at most 32)", K, 32 / N1);
   end
@@ -60,7 +59,6 @@ module rdx_step #(
   logic [J-1:0] outside, possible;
   logic [N1-1:0] pick, next;
   segment_t cell_q;
-
   // the digits of t_min at a level, 0 unless they are followed
   function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
     first_cell = '0;
@@ -194,7 +192,7 @@ module rdx_step #(
       .control_o,
       .segment_o
   );
-  wire unused = &{1'b0, phase_i, form_i};
+  wire unused = &{1'b0, modes_i, phase_i, form_i};
 
 endmodule
 
