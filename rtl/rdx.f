@@ -1,4 +1,5 @@
 +incdir+.
+rdx_swirl_pkg.sv
 rdx_pkg.sv
 rdx_delay.sv
 rdx_register.sv

@@ -49,7 +49,7 @@ module rdx_advance #(
   end
 
   // ---- what changes from row to row ----
-  logic [63:0] memory[Slots*64];
+  logic [63:0] memory[64<<SlotWidth];
   logic [63:0] kept_q, word_q, sum_q;
   logic write_q;
   logic [SlotWidth+5:0] write_place_q;

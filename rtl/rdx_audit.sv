@@ -78,7 +78,7 @@ module rdx_audit #(
     end
   end
 
-  row_info_t infos[Slots];
+  row_info_t infos[1<<SlotWidth];
   always_ff @(posedge clk_i) begin
     if (asked_q && second_q) begin
       infos[slot_q] <= '{vector: vector, quartic: quartic, y0: y0, y1: y1, width: x1 - x0};

@@ -37,8 +37,8 @@ module rdx_check
     output surface_t      slot_o
 );
 
-  if (K < 1 || K > 31) begin : gen_illegal_k
-    $fatal(1, "rdx_check: K = %0d; allowed: 1 to 31", K);
+  if (K < 1 || K > 32) begin : gen_illegal_k
+    $fatal(1, "rdx_check: K = %0d; allowed: 1 to 32", K);
   end
   if (Surfaces < 1 || Surfaces > 1 << SurfaceWidth) begin : gen_illegal_surfaces
     $fatal(1, "rdx_check: Surfaces = %0d; allowed: 1 to %0d", Surfaces, 1 << SurfaceWidth);
@@ -68,7 +68,7 @@ module rdx_check
   assign frame.last_y = pixel_t'(request_i.height - 1'b1);
   assign frame.last_slot = surface_t'(request_i.count - 1'b1);
   assign frame.empty = request_i.count == '0;
-  assign frame.k_stop = 5'(request_i.k_stop);
+  assign frame.k_stop = request_i.k_stop;
   assign frame.skip = request_i.skip;
   assign frame.ambient = unit(request_i.ambient);
   for (genvar i = 0; i < 3; i++) begin : gen_background

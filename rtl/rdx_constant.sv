@@ -4,7 +4,7 @@
 // Formats    write_i: a write to any constant; only those to number Index are taken, the low W bits of their data.
 //            material_i, data_o: which word is read, and it. Of the surface's number the low bits
 //            count that Surfaces needs.
-// Timing     latency rdx_pkg::ConstantLatency = 2 clocks, one word a clock; no reset. A word that is written while
+// Timing     latency 2 clocks, one word a clock; no reset. A word that is written while
 //            it is read comes out as it was or as it will be.
 // Model      none: model/raydix/material.py makes the words
 `default_nettype none

@@ -11,7 +11,7 @@
 module rdx_count (
     input  wire logic                   clk_i,
     input  wire logic                   clear_i,
-    input  wire logic             [4:0] k_stop_i,
+    input  wire logic             [5:0] k_stop_i,
     input  wire logic                   hit_valid_i,  // a record leaves the rings
     input  wire rdx_pkg::hit_t          hit_i,
     input  wire rdx_pkg::events_t       events_i,
@@ -27,7 +27,7 @@ module rdx_count (
     ray_q <= last && !clear_i;
     hit_q <= hit_valid_i && hit_i.hit && !clear_i;
     given_up_q <= last && (&hit_i.steps) && !clear_i;
-    early_q <= last && !clear_i && hit_i.steps < steps_t'(k_stop_i) ? k_stop_i - hit_i.steps[4:0] : '0;
+    early_q <= last && !clear_i && hit_i.steps < steps_t'(k_stop_i) ? 5'(k_stop_i - hit_i.steps[5:0]) : '0;
     events_q <= clear_i ? '0 : events_i;
     if (clear_i) begin
       counters_o <= '0;

@@ -76,7 +76,7 @@ endfunction
 function automatic int unsigned normal_latency(int unsigned d, int unsigned vecsum);
   int unsigned own;
   own = gradient_latency(d);
-  if (vecsum != VecsumNone && own < SwirlLatency) own = SwirlLatency;
+  if (vecsum != VecsumNone && own < rdx_swirl_pkg::SwirlLatency) own = rdx_swirl_pkg::SwirlLatency;
   return own;
 endfunction
 

@@ -73,10 +73,10 @@ module rdx_normal #(
         .point_i,
         .gradient_o(gradient)
     );
-    if (Latency > SwirlLatency) begin : gen_wait
+    if (Latency > rdx_swirl_pkg::SwirlLatency) begin : gen_wait
       rdx_line #(
           .W($bits(triple_t)),
-          .Depth(Latency - SwirlLatency)
+          .Depth(Latency - rdx_swirl_pkg::SwirlLatency)
       ) u_wait (
           .clk_i,
           .rst_ni,

@@ -60,14 +60,6 @@ package rdx_pkg;
   localparam int unsigned NormalWidth = 18;
   // places for the constants of a material, 32 bits each
   localparam int unsigned MaterialWords = 64;
-  // constant of a material that is the first of a vector sum's gradient
-  localparam int unsigned SwirlFirst = 16;
-  // fractional bits of lengths, and of turns, in that evaluator
-  localparam int unsigned SwirlFrac = 22;
-  // s4p22: length in it
-  localparam int unsigned SwirlWidth = 26;
-  // of its CORDIC
-  localparam int unsigned SwirlIterations = 16;
   // constants of a vector-sum surface
   localparam int unsigned FormWords = 77;
   // END generated
@@ -142,7 +134,6 @@ package rdx_pkg;
 
   // Types of the processor around the rings
   `include "rdx_frame.svh"
-  `include "rdx_swirl.svh"
   `include "rdx_material.svh"
 
   // Latency of rdx_select: signs, masks, candidates; the paper rule needs one clock for magnitudes, one for each two

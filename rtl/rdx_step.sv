@@ -27,14 +27,15 @@ module rdx_step #(
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic           [3:0] phase_i,
-    input  wire rdx_pkg::form_t       form_i,
-    input  wire control_t             control_i,
-    input  wire segment_t             segment_i,
-    output control_t                  control_o,
-    output segment_t                  segment_o
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic            [3:0] phase_i,
+    input  wire rdx_pkg::form_t        form_i,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire control_t              control_i,
+    input  wire segment_t              segment_i,
+    output control_t                   control_o,
+    output segment_t                   segment_o
 );
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
@@ -59,7 +60,6 @@ module rdx_step #(
   logic [J-1:0] outside, possible;
   logic [N1-1:0] pick, next;
   segment_t cell_q;
-
   // the digits of t_min at a level, 0 unless they are followed
   function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
     first_cell = '0;
@@ -71,9 +71,8 @@ module rdx_step #(
     rdx_delay #(.T(TYPE), .Depth(DEPTH)) NAME (.clk_i, .data_i(IN), .data_o(OUT));
   localparam type search_t = logic [N1+1:0];
   search_t search[1];  // what the choice needs of the control part, when the cells are there
-  logic last, paper;
-  logic [N1-1:0] first;
-  assign {last, paper, first} = search[0];
+  wire last = search[0][N1+1], paper = search[0][N1];
+  wire [N1-1:0] first = search[0][N1-1:0];
   control_t waits;  // what enters the line of the control part
   if (D > 1) begin : gen_split
     rdx_split #(
@@ -109,6 +108,7 @@ module rdx_step #(
         .rst_ni,
         .phase_i,
         .form_i,
+        .modes_i,
         .control_i,
         .segment_i,
         .pick_i(pick),
@@ -130,7 +130,7 @@ module rdx_step #(
   ) u_select (
       .clk_i,
       .cells_i(cells),
-      .excluded_i(outside | ~({J{1'b1}} << first)),
+      .excluded_i((modes_i.boxes ? outside : '0) | ~({J{1'b1}} << first)),
       .possible_i(possible),
       .last_i(last),
       .paper_i(paper),
@@ -192,7 +192,7 @@ module rdx_step #(
       .control_o,
       .segment_o
   );
-  wire unused = &{1'b0, phase_i, form_i};
+  wire unused = &{1'b0, phase_i, form_i, modes_i};
 
 endmodule
 

@@ -8,9 +8,8 @@
 // Formats    point_i: x, y, z in s2p30, z carries K. gradient_o: in scaled coordinates, up to a positive factor, s1p17;
 //            0 only where it vanishes. write_i: every write to the materials.
 // Rounding   that of the parts.    Overflow   cannot happen at points of the surface.
-// Timing     latency rdx_pkg::SwirlLatency clocks, one point a clock. Reset of the waiting lines' places only.
-// Error      docs/modules/swirl.md
-// Model      model/raydix/swirl.py (swirl)
+// Timing     latency SwirlLatency clocks, one point a clock. Reset of the waiting lines' places only.
+// Model      model/raydix/swirl.py (swirl). Error: docs/modules/swirl.md
 `default_nettype none
 
 module rdx_swirl #(
@@ -25,6 +24,7 @@ module rdx_swirl #(
     output rdx_pkg::normal_t              gradient_o[3]
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   material_t material_q[SwirlChoice];  // in each clock
   always_ff @(posedge clk_i) begin

@@ -8,7 +8,7 @@
 // Formats    place_i: s8p22. azimuth_i: u0p22. stop_i: 1: the ball at the end. rho_i: s3p15, 6 clocks after them.
 //            side_i: s3p25, 9 clocks after them. ball_o: 1: the ball's power is less.
 // Rounding   floor.    Overflow   cannot happen.
-// Timing     latency rdx_pkg::SwirlEndLatency = 13 clocks, one point a clock; material_i two clocks before. No reset.
+// Timing     latency SwirlEndLatency = 13 clocks, one point a clock; material_i two clocks before. No reset.
 // Model      model/raydix/swirl.py (in_ball)
 `default_nettype none
 
@@ -19,14 +19,15 @@ module rdx_swirl_end #(
     input  wire logic                     clk_i,
     input  wire rdx_pkg::material_write_t write_i,
     input  wire rdx_pkg::material_t       material_i,
-    input  wire rdx_pkg::place_t          place_i,
-    input  wire rdx_pkg::azimuth_t        azimuth_i,
+    input  wire rdx_swirl_pkg::place_t    place_i,
+    input  wire rdx_swirl_pkg::azimuth_t  azimuth_i,
     input  wire logic                     stop_i,
     input  wire rdx_pkg::normal_t         rho_i,
-    input  wire rdx_pkg::slope_t          side_i,
+    input  wire rdx_swirl_pkg::slope_t    side_i,
     output logic                          ball_o
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Fine = SwirlFrac - (NormalWidth - 1);  // bits of turns that a factor has not
   localparam type product_t = logic signed [2*NormalWidth-1:0];
@@ -153,6 +154,7 @@ module rdx_swirl_end #(
       .data_o(bend)
   );
   wire normal_t  side = normal_t'(side_i >>> (SlopeWidth - NormalWidth));
+  wire normal_t  leaning = normal_t'(leaning_q >>> NormalWidth);
   wire product_t bent = bend_q >>> 2;
   wire product_t lever = lever_q >>> 1;
   always_ff @(posedge clk_i) begin
@@ -163,7 +165,7 @@ module rdx_swirl_end #(
     leaning_q <= stop_q[9] ? sum_t'(bent) - sum_t'(lean_q) : sum_t'(bent) + sum_t'(lean_q);
     // ---- and the sum ----
     leaning_qq <= product_t'(leaning_q >>> 2);
-    lever_q <= product_t'(leaning_q >>> NormalWidth) * product_t'(distance_q[9]);
+    lever_q <= product_t'(leaning) * product_t'(distance_q[9]);
     sum_q <= sum_t'(pull_q[4]) + (small_q[11] ? sum_t'(leaning_qq) : sum_t'(lever));
   end
   logic far_qq;

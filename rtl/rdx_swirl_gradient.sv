@@ -2,14 +2,14 @@
 // The gradient at a point of the tube or of a ball, scaled to 18 bits.
 //
 // Tube: the gradient turned to azimuth 0 (outwards, side, upwards) is turned back by x, y and multiplied by the
-// distance from the axis. Ball: the vector from its centre, turned by nothing. Upwards the gradient loses K twice: once for the
-// length and once for the coordinate.
+// distance from the axis. Ball: the vector from its centre, turned by nothing. Upwards the gradient loses K twice: once
+// for the length and once for the coordinate.
 //
 // Formats    point_i: s2p22, stop_i and ball_i with it. outwards_i, side_i, upwards_i: s3p25, a clock later. up_i:
-//            distance from the axis over K, s2p16, three clocks later. gradient_o: s1p17; the largest component has no
-//            sign bit too many, unless it lacks more than 15.
+//            distance from the axis over K, s2p16, three clocks later. gradient_o: s1p17; at most 7 sign bits are
+//            shifted out: more there are only next to the axis.
 // Rounding   floor.    Overflow   cannot happen.
-// Timing     latency rdx_pkg::SwirlGradientLatency = 8 clocks, one point a clock; material_i two clocks before. No
+// Timing     latency SwirlGradientLatency = 8 clocks, one point a clock; material_i two clocks before. No
 //            reset.
 // Model      model/raydix/swirl.py (swirl)
 `default_nettype none
@@ -17,19 +17,20 @@
 module rdx_swirl_gradient #(
     parameter int unsigned Surfaces = 1
 ) (
-    input  wire logic                     clk_i,
-    input  wire rdx_pkg::material_write_t write_i,
-    input  wire rdx_pkg::material_t       material_i,
-    input  wire rdx_pkg::swirl_coord_t    point_i   [3],
-    input  wire logic                     stop_i,
-    input  wire logic                     ball_i,
-    input  wire rdx_pkg::slope_t          outwards_i,
-    input  wire rdx_pkg::slope_t          side_i,
-    input  wire rdx_pkg::slope_t          upwards_i,
-    input  wire rdx_pkg::normal_t         up_i,
-    output rdx_pkg::normal_t              gradient_o[3]
+    input  wire logic                        clk_i,
+    input  wire rdx_pkg::material_write_t    write_i,
+    input  wire rdx_pkg::material_t          material_i,
+    input  wire rdx_swirl_pkg::swirl_coord_t point_i   [3],
+    input  wire logic                        stop_i,
+    input  wire logic                        ball_i,
+    input  wire rdx_swirl_pkg::slope_t       outwards_i,
+    input  wire rdx_swirl_pkg::slope_t       side_i,
+    input  wire rdx_swirl_pkg::slope_t       upwards_i,
+    input  wire rdx_pkg::normal_t            up_i,
+    output rdx_pkg::normal_t                 gradient_o[3]
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Product = 2 * NormalWidth;
   localparam int unsigned Drop = 7;
@@ -119,7 +120,7 @@ module rdx_swirl_gradient #(
       .WIn  (Width),
       .WOut (NormalWidth),
       .Count(3),
-      .Limit(15)
+      .Limit(7)
   ) u_gradient (
       .clk_i,
       .en_i(1'b1),

@@ -4,7 +4,7 @@
 // Formats    place_i: turns, s8p22. rho_i, z_i: two clocks after it: K times distance from the axis, s4p22, and height,
 //            s2p22. across_o, along_o, size_o: s1p17, times 2^E; size_o is 0 without General.
 // Rounding   floor.    Overflow   the outputs saturate; before, it cannot happen where there is a turn.
-// Timing     latency rdx_pkg::SwirlLegsLatency = 6 clocks, one point a clock; material_i two clocks before. No reset.
+// Timing     latency SwirlLegsLatency = 6 clocks, one point a clock; material_i two clocks before. No reset.
 // Model      model/raydix/swirl.py (swirl)
 `default_nettype none
 
@@ -12,17 +12,18 @@ module rdx_swirl_legs #(
     parameter bit General = 1'b0,
     parameter int unsigned Surfaces = 1
 ) (
-    input  wire logic                     clk_i,
-    input  wire rdx_pkg::material_write_t write_i,
-    input  wire rdx_pkg::material_t       material_i,
-    input  wire rdx_pkg::place_t          place_i,
-    input  wire rdx_pkg::swirl_t          rho_i,
-    input  wire rdx_pkg::swirl_coord_t    z_i,
-    output rdx_pkg::normal_t              across_o,
-    output rdx_pkg::normal_t              along_o,
-    output rdx_pkg::normal_t              size_o
+    input  wire logic                        clk_i,
+    input  wire rdx_pkg::material_write_t    write_i,
+    input  wire rdx_pkg::material_t          material_i,
+    input  wire rdx_swirl_pkg::place_t       place_i,
+    input  wire rdx_swirl_pkg::swirl_t       rho_i,
+    input  wire rdx_swirl_pkg::swirl_coord_t z_i,
+    output rdx_pkg::normal_t                 across_o,
+    output rdx_pkg::normal_t                 along_o,
+    output rdx_pkg::normal_t                 size_o
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Growths = General ? 3 : 1;  // of the height, the radius, the tube
   localparam int unsigned Index[3] = '{SwirlPitch, SwirlRadiusGrowth, SwirlTubeGrowth};

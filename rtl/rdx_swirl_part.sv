@@ -8,12 +8,13 @@
 `default_nettype none
 
 module rdx_swirl_part (
-    input  wire logic                  clk_i,
-    input  wire rdx_pkg::swirl_t       length_i,
-    input  wire rdx_pkg::swirl_scale_t scale_i,
-    output rdx_pkg::normal_t           part_o
+    input  wire logic                        clk_i,
+    input  wire rdx_swirl_pkg::swirl_t       length_i,
+    input  wire rdx_swirl_pkg::swirl_scale_t scale_i,
+    output rdx_pkg::normal_t                 part_o
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Most = (1 << $bits(swirl_scale_t)) - 1;
   localparam int unsigned Drop = SwirlFrac + 1 - (NormalWidth - 1);

@@ -4,25 +4,26 @@
 // Formats    point_i: s2p30. rho_o, rho_legs_o: K times the distance from the axis, s4p22. azimuth_o: turns, u0p22. The
 //            others: coordinates s2p22.
 // Rounding   down, once of each coordinate; rdx_cordic.    Overflow   cannot happen.
-// Timing     clocks after point_i: point_side_o rdx_pkg::SwirlSide; rho_o, azimuth_o, z_o one more; rho_legs_o and
-//            z_legs_o rdx_pkg::SwirlLegs + 2; point_o rdx_pkg::SwirlChoice. A point a clock.
+// Timing     clocks after point_i: point_side_o SwirlSide; rho_o, azimuth_o, z_o one more; rho_legs_o and
+//            z_legs_o SwirlLegs + 2; point_o SwirlChoice. A point a clock.
 // Reset      of the waiting lines' places only.
 // Model      model/raydix/swirl.py (polar)
 `default_nettype none
 
 module rdx_swirl_polar (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire rdx_pkg::coord_t  point_i     [3],
-    output rdx_pkg::swirl_coord_t point_side_o[3],
-    output rdx_pkg::swirl_t       rho_o,
-    output rdx_pkg::azimuth_t     azimuth_o,
-    output rdx_pkg::swirl_coord_t z_o,
-    output rdx_pkg::swirl_t       rho_legs_o,
-    output rdx_pkg::swirl_coord_t z_legs_o,
-    output rdx_pkg::swirl_coord_t point_o     [3]
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
+    input  wire rdx_pkg::coord_t        point_i     [3],
+    output rdx_swirl_pkg::swirl_coord_t point_side_o[3],
+    output rdx_swirl_pkg::swirl_t       rho_o,
+    output rdx_swirl_pkg::azimuth_t     azimuth_o,
+    output rdx_swirl_pkg::swirl_coord_t z_o,
+    output rdx_swirl_pkg::swirl_t       rho_legs_o,
+    output rdx_swirl_pkg::swirl_coord_t z_legs_o,
+    output rdx_swirl_pkg::swirl_coord_t point_o     [3]
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam type plane_t = logic [2*SwirlCoordWidth-1:0];
 
@@ -35,6 +36,7 @@ module rdx_swirl_polar (
   rdx_cordic #(
       .W(SwirlWidth),
       .Iterations(SwirlIterations),
+      .Still(SwirlStill),
       .Angle(1'b1)
   ) u_polar (
       .clk_i,

@@ -6,7 +6,7 @@
 //
 // Formats    point_i: s2p22. stop_o: 1: the ball at the end.
 // Rounding   coordinates down to s2p16 (General).    Overflow   cannot happen.
-// Timing     latency rdx_pkg::SwirlSideLatency = 3 clocks, one point a clock; material_i two clocks before. No reset.
+// Timing     latency SwirlSideLatency = 3 clocks, one point a clock; material_i two clocks before. No reset.
 // Model      model/raydix/swirl.py (at_end)
 `default_nettype none
 
@@ -14,13 +14,14 @@ module rdx_swirl_side #(
     parameter bit General = 1'b0,
     parameter int unsigned Surfaces = 1
 ) (
-    input  wire logic                     clk_i,
-    input  wire rdx_pkg::material_write_t write_i,
-    input  wire rdx_pkg::material_t       material_i,
-    input  wire rdx_pkg::swirl_coord_t    point_i   [3],
-    output logic                          stop_o
+    input  wire logic                        clk_i,
+    input  wire rdx_pkg::material_write_t    write_i,
+    input  wire rdx_pkg::material_t          material_i,
+    input  wire rdx_swirl_pkg::swirl_coord_t point_i   [3],
+    output logic                             stop_o
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   if (General) begin : gen_plane
     localparam type product_t = logic signed [2*NormalWidth-1:0];

@@ -6,7 +6,7 @@
 //
 // Formats    across_i, along_i, size_i: A, B, r in s1p17. rho_i: s3p15. outwards_o, side_o, upwards_o: s3p25.
 // Rounding   floor.    Overflow   side_o saturates (with General = 0 it cannot happen).
-// Timing     one point a clock; outwards_o and upwards_o follow by 1 clock, side_o by rdx_pkg::SwirlSlopeLatency = 3.
+// Timing     one point a clock; outwards_o and upwards_o follow by 1 clock, side_o by SwirlSlopeLatency = 3.
 //            material_i two clocks before the point. No reset.
 // Model      model/raydix/swirl.py (swirl)
 `default_nettype none
@@ -22,11 +22,12 @@ module rdx_swirl_slope #(
     input  wire rdx_pkg::normal_t         along_i,
     input  wire rdx_pkg::normal_t         size_i,
     input  wire rdx_pkg::normal_t         rho_i,
-    output rdx_pkg::slope_t               outwards_o,
-    output rdx_pkg::slope_t               side_o,
-    output rdx_pkg::slope_t               upwards_o
+    output rdx_swirl_pkg::slope_t         outwards_o,
+    output rdx_swirl_pkg::slope_t         side_o,
+    output rdx_swirl_pkg::slope_t         upwards_o
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Parts = General ? 3 : 1;
   localparam int unsigned Index[3] = '{SwirlPitchRadian, SwirlRadiusRadian, SwirlTubeRadian};

@@ -8,7 +8,7 @@
 //            place_o: turns from the spiral's start, s8p22; none_o: no turn passes this azimuth; place_o is
 //            beyond the end.
 // Rounding   floor of the products, then to the nearest turn.    Overflow   cannot happen: the constants are limited.
-// Timing     latency rdx_pkg::SwirlTurnLatency = 6 clocks, one point a clock; material_i two clocks before. No reset.
+// Timing     latency SwirlTurnLatency = 6 clocks, one point a clock; material_i two clocks before. No reset.
 // Model      model/raydix/swirl.py (turn)
 `default_nettype none
 
@@ -16,16 +16,17 @@ module rdx_swirl_turn #(
     parameter bit General = 1'b0,
     parameter int unsigned Surfaces = 1
 ) (
-    input  wire logic                     clk_i,
-    input  wire rdx_pkg::material_write_t write_i,
-    input  wire rdx_pkg::material_t       material_i,
-    input  wire rdx_pkg::swirl_t          rho_i,
-    input  wire rdx_pkg::swirl_coord_t    z_i,
-    input  wire rdx_pkg::azimuth_t        azimuth_i,
-    output rdx_pkg::place_t               place_o,
-    output logic                          none_o
+    input  wire logic                        clk_i,
+    input  wire rdx_pkg::material_write_t    write_i,
+    input  wire rdx_pkg::material_t          material_i,
+    input  wire rdx_swirl_pkg::swirl_t       rho_i,
+    input  wire rdx_swirl_pkg::swirl_coord_t z_i,
+    input  wire rdx_swirl_pkg::azimuth_t     azimuth_i,
+    output rdx_swirl_pkg::place_t            place_o,
+    output logic                             none_o
 );
   import rdx_pkg::*;
+  import rdx_swirl_pkg::*;
 
   localparam int unsigned Whole = 20;  // integer bits of a place before it is brought into the range
   localparam int unsigned Width = Whole + SwirlFrac;

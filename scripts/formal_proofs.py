@@ -18,7 +18,7 @@ class Proof:
     replace: tuple[tuple[str, str, str], ...] = ()  # changes that make the design smaller
     stages: int = 1  # of lemmas: the parameter Stage of the harness counts them
     depth: int = 20  # clocks in which covers are reached
-    limit: int = 120  # seconds that one run of ABC may take
+    limit: int = 600  # seconds that one run of ABC may take
 
 
 def halve(w, d):
@@ -64,15 +64,15 @@ def outside(faces, change):
     return Proof("formal_outside", "rdx_outside", says, {"J": 8, "Faces": faces}, broken=broken)
 
 
-def fdiff(w, quadratic, places):
-    """rdx_fdiff of some width over 2^places columns and rows."""
+def fdiff(w, quadratic, places, sums=0):
+    """rdx_fdiff of some width over 2^places columns and rows, against the polynomial or the sums of its differences."""
     broken = (
         ("rdx_fdiff", "row_rise_q + dyy", "row_rise_q - dyy" if quadratic else "row_rise_q + 1"),
         ("rdx_fdiff", "{slope_q, row_slope_q} <= {next_row_slope, next_row_slope};", "slope_q <= next_row_slope + 1;"),
     )
-    says = "the value is the polynomial of column and row"
-    values = {"W": w, "Quadratic": quadratic, "Places": places}
-    return Proof("formal_fdiff", "rdx_fdiff", says, values, "induction 2", broken)
+    says = "the value is the polynomial of column and row" + (", as the sum of its differences" if sums else "")
+    values = {"W": w, "Quadratic": quadratic, "Places": places, "Sums": sums}
+    return Proof("formal_fdiff", "rdx_fdiff", says, values, "induction 2", broken, stages=4)
 
 
 def slots(slots, phases):
@@ -108,7 +108,7 @@ def ring(parameters, always, **rest):
             ),
         )
     values = parameters | {"Always": always}
-    short = ("rdx_pkg", "int unsigned StepsWidth = 12;", "int unsigned StepsWidth = 2;")
+    short = ("rdx_pkg", "int unsigned StepsWidth = 16;", "int unsigned StepsWidth = 2;")
     return Proof(
         "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short,), stages=3, depth=45, **rest
     )
@@ -187,7 +187,8 @@ PROOFS = {
     ),
     "outside": outside(0, ("& face_bits);", "& (face_bits >> 1));")),
     "outside-faces": outside(1, ("boundaries_i[axis][j] > high_i[axis]", "boundaries_i[axis][j] >= high_i[axis]")),
-    "fdiff": fdiff(64, 1, 2),
+    "fdiff": fdiff(64, 1, 2, 1),
+    "fdiff-closed": fdiff(8, 1, 2),
     "fdiff-linear": fdiff(48, 0, 2),
     "bound": Proof(
         "formal_bound",

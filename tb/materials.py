@@ -11,6 +11,7 @@ from raydix.formats import (
     MATERIAL_INDEX,
     MATERIAL_WORDS,
     NORMAL_WIDTH,
+    PIXEL_WIDTH,
     SURFACE_WIDTH,
     UNIT_FRAC,
 )
@@ -18,6 +19,11 @@ from raydix.formats import (
 ONE = 1 << UNIT_FRAC
 MATERIAL_T = bench.Struct(("bank", 1), ("surface", SURFACE_WIDTH))
 WRITE_T = bench.Struct(("we", 1), ("bank", 1), ("surface", SURFACE_WIDTH), ("constant", 6), ("data", 32))
+SKIP_T = bench.Struct(*((name, 1) for name in ("early", "depth", "rootless", "boxes", "rectangle")))
+FRAME_T = bench.Struct(
+    ("last_x", PIXEL_WIDTH), ("last_y", PIXEL_WIDTH), ("last_slot", SURFACE_WIDTH), ("empty", 1), ("k_stop", 6),
+    ("skip", SKIP_T.width), ("ambient", UNIT_FRAC + 1), ("background", UNIT_FRAC + 1, 3),
+)  # fmt: skip
 AFTER = 3  # clocks after which a written word is read
 
 
@@ -56,9 +62,9 @@ def write_of(bank, surface, constant, data):
     return {"we": 1, "bank": bank, "surface": surface, "constant": constant, "data": data}
 
 
-async def load(dut, materials):
-    """Write the materials, (bank, surface) -> words, by a port ``write_i``, and wait until they can be read."""
-    port = bench.Port(dut, "write_i", WRITE_T)
+async def load(dut, materials, port="write_i"):
+    """Write the materials, (bank, surface) -> words, by a port of WRITE_T, and wait until they can be read."""
+    port = bench.Port(dut, port, WRITE_T)
     for (bank, surface), words in materials.items():
         for constant, data in enumerate(words):
             port.write(write_of(bank, surface, constant, data))

@@ -13,7 +13,7 @@ UNIT, PIXEL, SURFACE = 17, formats.PIXEL_WIDTH, formats.SURFACE_WIDTH
 _LIGHT = ("skip", 5), ("ambient", UNIT), ("background", UNIT, 3)
 REQUEST = bench.Struct(("width", 13), ("height", 13), ("count", 7), ("k_stop", 6), *_LIGHT)
 FRAME = bench.Struct(
-    ("last_x", PIXEL), ("last_y", PIXEL), ("last_slot", SURFACE), ("empty", 1), ("k_stop", 5), *_LIGHT
+    ("last_x", PIXEL), ("last_y", PIXEL), ("last_slot", SURFACE), ("empty", 1), ("k_stop", 6), *_LIGHT
 )  # fmt: skip
 ONE = 1 << 16
 BUILT = dict(K=8, Surfaces=64, MaxWidth=1920)

@@ -386,6 +386,7 @@ async def counters(dut, stall):
     """The counters are those of the last finished frame, whatever stands there later; frames are counted."""
     host, rng = await begin(dut, stall)
     port = bench.Port(dut, "counters_i", COUNTERS)
+    dut.busy_i.value = 1  # the next frame is being made
     for frames in range(1, 4):
         values = {name: rng.getrandbits(width) for name, width, _ in COUNTERS.fields}
         port.write(values)

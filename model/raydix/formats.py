@@ -156,6 +156,7 @@ SWIRL_FIRST = 16  # constant of a material that is the first of these
 SWIRL_FRAC = 22
 SWIRL_WIDTH = 4 + SWIRL_FRAC
 SWIRL_ITERATIONS = 16
+SWIRL_STILL = 14
 SWIRL_CHORDS = 64  # intervals of the table of sin^2
 FORM_INDEX = {field.name: sum(f.count for f in FORM[:i]) for i, field in enumerate(FORM)}
 MATERIAL_INDEX = {field.name: sum(f.count for f in MATERIAL[:i]) for i, field in enumerate(MATERIAL)}
@@ -193,10 +194,6 @@ TABLE = (
     Constant("UnitFrac", UNIT_FRAC, "", "fractional bits of such a number"),
     Constant("NormalWidth", NORMAL_WIDTH, "s1p17", "component of a normal or of a constant of a material"),
     Constant("MaterialWords", MATERIAL_WORDS, "", "places for the constants of a material, 32 bits each"),
-    Constant("SwirlFirst", SWIRL_FIRST, "", "constant of a material that is the first of a vector sum's gradient"),
-    Constant("SwirlFrac", SWIRL_FRAC, "", "fractional bits of lengths, and of turns, in that evaluator"),
-    Constant("SwirlWidth", SWIRL_WIDTH, "s4p22", "length in it"),
-    Constant("SwirlIterations", SWIRL_ITERATIONS, "", "of its CORDIC"),
     Constant("FormWords", FORM_WORDS, "", "constants of a vector-sum surface"),
     Constant("VectorWords", VECTOR_WORDS, "", "words of a descriptor of a vector-sum surface", False),
     Constant("QuadricWords", QUADRIC_WORDS, "", "words of a descriptor of degree 1 or 2", False),
@@ -303,8 +300,17 @@ def swirl_types() -> str:
     """Numbers and types of the constants of a vector sum's gradient."""
     from .swirl import FLAT  # which takes the numbers from here
 
-    lines = [f"localparam int unsigned SwirlChords = {SWIRL_CHORDS};  // intervals of a table"]
-    lines += [f"localparam int unsigned SwirlFlat = {FLAT};  // u0p17: 1/K^2"]
+    counts = (
+        ("Frac", SWIRL_FRAC, "fractional bits of lengths, and of turns"),
+        ("Width", SWIRL_WIDTH, f"s{SWIRL_WIDTH - SWIRL_FRAC}p{SWIRL_FRAC}: length"),
+        ("Iterations", SWIRL_ITERATIONS, "of the CORDIC"),
+        ("Still", SWIRL_STILL, "iteration of it from which on the radius stays as it is"),
+        ("Chords", SWIRL_CHORDS, "intervals of the table of sin^2"),
+        ("Flat", FLAT, "u0p17: 1/K^2"),
+    )
+    lines = []
+    for name, value, meaning in counts:
+        lines += [f"// {meaning}", f"localparam int unsigned Swirl{name} = {value};"]
     for field in SWIRL:
         number = SWIRL_FIRST + SWIRL_INDEX[field.name]
         sign = "signed " if field.token[0] == "s" else ""

@@ -80,3 +80,14 @@ def differing_bits(a: FrameHits, b: FrameHits) -> int:
         for name in ("t", "depth", "point", "enters", "steps"):
             total += int(np.bitwise_count(getattr(one, name) ^ getattr(other, name)).sum())
     return total
+
+
+def differing_bits_of(part: FrameHits, whole: FrameHits) -> int:
+    """Bits of the hits of ``part`` that differ from those in the same place of ``whole``; ``part`` may lack any."""
+    total = 0
+    for one, other in zip(part.surfaces, whole.surfaces, strict=True):
+        there = one.t >= 0
+        for name in ("t", "depth", "point", "enters"):
+            a, b = (getattr(hits, name)[there] for hits in (one, other))
+            total += int(np.bitwise_count(a ^ b).sum())
+    return total

@@ -9,9 +9,9 @@ import numpy as np
 from .compile import compile_scene
 from .config import Config
 from .golden import trace_golden
-from .hits import FrameHits, differing_bits
+from .hits import differing_bits_of
 from .image import frame_writers, png_writer, write_files
-from .rtl import trace_rtl
+from .processor import run_frames
 from .scene import Scene
 from .shade import Frame, compose
 
@@ -19,20 +19,35 @@ from .shade import Frame, compose
 def render_golden(scene: Scene, config: Config, threads: int = 1, progress=None) -> Frame:
     """Render ``scene`` by the golden model. Raises SceneError where the scene does not fit the configuration."""
     compiled = compile_scene(scene, config)
-    return compose(scene, trace_golden(compiled, config, threads, progress), config)
+    return compose(scene, trace_golden(compiled, config, threads, progress), config, config.layers)
 
 
-def render_rtl(scene: Scene, config: Config, progress=None, wave: Path | None = None) -> Frame:
-    """Render ``scene`` by the RTL under Verilator. Raises SceneError, and RtlError where a tool fails."""
+def render_rtl(scene: Scene, config: Config, progress=None, wave: Path | None = None, **choices) -> Frame:
+    """Render ``scene`` by the processor, the RTL under Verilator: its colours are those of the pixel stream.
+
+    Depth, t, surface and normal are those of the visible hits among the records of its rings.
+    choices  see :func:`~raydix.processor.run_frames`
+    Raises SceneError, and RtlError where a tool fails.
+    """
     compiled = compile_scene(scene, config)
-    return compose(scene, trace_rtl(compiled, config, wave=wave, progress=progress), config)
+    return _frame_of(
+        scene, compiled, config, run_frames([(scene, compiled)], config, wave=wave, progress=progress, **choices)
+    )
+
+
+def _frame_of(scene, compiled, config, output) -> Frame:
+    """What left the processor as a frame."""
+    frame = compose(scene, output.hits, config, config.layers)
+    frame.rgb = output.rgb[0]
+    frame.counters = output.counters
+    return frame
 
 
 @dataclass
 class Verdict:
     """The golden model and the RTL side by side.
 
-    hit_bits    bits that differ in what the cores gave back (digits, depth, point, steps)
+    hit_bits    bits that differ in the hits that left the rings (digits, depth, point)
     image_bits  bits that differ in the finished frames (depth, t, surface, normal, rgb)
     """
 
@@ -57,10 +72,10 @@ def verify(scene: Scene, config: Config, threads: int = 1, progress=None) -> Ver
     """
     compiled = compile_scene(scene, config)
     of_golden, of_rtl = progress or (None, None)
-    golden: FrameHits = trace_golden(compiled, config, threads, of_golden)
-    rtl: FrameHits = trace_rtl(compiled, config, progress=of_rtl)
-    frames = [compose(scene, hits, config) for hits in (golden, rtl)]
-    return Verdict(*frames, differing_bits(golden, rtl), _image_bits(*frames))
+    golden = compose(scene, trace_golden(compiled, config, threads, of_golden), config, config.layers)
+    output = run_frames([(scene, compiled)], config, progress=of_rtl)
+    rtl = _frame_of(scene, compiled, config, output)
+    return Verdict(golden, rtl, differing_bits_of(rtl.hits, golden.hits), _image_bits(golden, rtl))
 
 
 def write_verdict(verdict: Verdict, out: Path, name: str) -> list[Path]:

@@ -4,7 +4,7 @@
 The same code for the golden model and the RTL. Colours are integers: docs/processor.md, "Shading".
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import mpmath as mp
 import numpy as np
@@ -43,6 +43,7 @@ class Frame:
     ulp      float64 (surfaces of the scene), depth of one unit in the last place of t; nan if not in view
     dropped  int64 (H, W), layers that had no place
     hits     what the core gave back
+    counters  those of the processor, by name; none of the golden model
     """
 
     depth: np.ndarray
@@ -54,6 +55,7 @@ class Frame:
     ulp: np.ndarray
     dropped: np.ndarray
     hits: FrameHits
+    counters: dict[str, int] = field(default_factory=dict)
 
 
 def _normals(scene: Scene, hits, point, basis, columns, rows) -> np.ndarray:

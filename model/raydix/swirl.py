@@ -7,7 +7,7 @@ Of reduced width: what a colour of eight bits needs. Source: docs/modules/swirl.
 import mpmath as mp
 
 from .cordic import gain, turned
-from .formats import ANGLE_WIDTH, COORD_FRAC, SWIRL_CHORDS, SWIRL_FRAC, SWIRL_INDEX, SWIRL_ITERATIONS
+from .formats import ANGLE_WIDTH, COORD_FRAC, SWIRL_CHORDS, SWIRL_FRAC, SWIRL_INDEX, SWIRL_ITERATIONS, SWIRL_STILL
 from .kernel import kernel
 from .multiply import scaled
 from .normalize import normalize
@@ -84,7 +84,8 @@ def _polar(x, y):
     back = x >> 63
     u, v, w = (x ^ back) - back, (y ^ back) - back, back & (1 << (ANGLE_WIDTH - 1))
     for i in range(SWIRL_ITERATIONS):
-        u, v, w = turned(u, v, w, i)
+        longer, v, w = turned(u, v, w, i)
+        u = longer if i < SWIRL_STILL else u
     return u, (w & ((1 << ANGLE_WIDTH) - 1)) >> ANGLE_DROP
 
 
@@ -192,4 +193,4 @@ def swirl(x, y, z, words, general, out):
     out[0] = (outwards * x + side * y) >> SUM_DROP
     out[1] = (outwards * y - side * x) >> SUM_DROP
     out[2] = (upwards * up) >> SUM_DROP
-    normalize(out, 0, 3, SUM_WIDTH, 18, 15)
+    normalize(out, 0, 3, SUM_WIDTH, 18, 7)

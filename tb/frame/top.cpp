@@ -63,7 +63,10 @@ static Record record_of(const Wide& hit) {
     return r;
 }
 
-static std::uint8_t byte_of(const VlWideP& data, int i) { return data[i / 4] >> 8 * (i % 4) & 255; }
+template <std::size_t Words>
+static std::uint8_t byte_of(const VlWide<Words>& data, int i) {
+    return data[i / 4] >> 8 * (i % 4) & 255;
+}
 static std::uint8_t byte_of(std::uint64_t data, int i) { return data >> 8 * i & 255; }
 
 static int fail(const char* what, const char* which = "") {

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows of algebraic surfaces and spirals, fed one by one: the golden model's hits, and no ray with a hit is dropped."""
+
+import cocotb
+from cocotb.triggers import FallingEdge, ReadOnly
+
+import bench
+import feeding
+import looks
+import spirals
+import test_core
+import walking
+from raydix.formats import DEPTH_WIDTH, HEADER_WORDS
+from raydix.golden import trace_golden
+from raydix.rtl import parameters
+from test_core import CONFIG, compiled_frame
+
+FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "k_stop": 0, "ambient": 0, "background": [0, 0, 0]}
+FRAME |= dict.fromkeys(walking.SKIPS, 0)
+HIDDEN, ROOTLESS, BEYOND = range(3)  # reasons
+
+
+async def cast(dut, random, frame, skips, share, stall):
+    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, lowest bit of the row))."""
+    dut.frame_i.value = walking.FRAME.pack(FRAME | dict.fromkeys(skips, 1))
+    limits, load, hit = (
+        looks.Limits(dut, random, share),
+        bench.Port(dut, "load_i", feeding.WORD),
+        bench.Port(dut, "hit_o"),
+    )
+    limits.depths = tuple(sorted(surface.words[2] & ((1 << DEPTH_WIDTH) - 1) for surface in frame.compiled.surfaces))
+    limits.depths = (0, *limits.depths, looks.FAR)
+    records, without, words, formed = [], [], [], None
+    for surface in frame.compiled.surfaces:
+        for y in range(surface.rect[1], surface.rect[3] + 1):
+            words += feeding.row([int(w) for w in surface.words], y, surface.is_vector_sum and formed is not surface)
+            formed = surface if surface.is_vector_sum else formed
+    quiet = 0
+    while quiet < 2000:
+        word = words[0] if words else None
+        # full_o and both idle outputs come from registers
+        room = dut.full_o.value == 0 and random.random() >= stall
+        if word and word["kind"] == feeding.FORM:
+            room = room and dut.idle_o.value == 1 and dut.vector_idle_o.value == 1
+        dut.load_valid_i.value = int(word is not None and room)
+        if word and room:
+            load.write(word | {"word": word["word"] or 0})
+            words.pop(0)
+        dut.hit_ready_i.value = int(random.random() >= stall)
+        await ReadOnly()
+        asked = limits.asked()
+        if dut.hit_valid_o.value == 1 and dut.hit_ready_i.value == 1:
+            records.append(bench.HIT.unpack(hit.read()[0]))
+        skipped, rows = int(dut.skipped_o.value), int(dut.skipped_row_o.value)
+        without += [(reason, rows >> reason & 1) for reason in range(3) if skipped >> reason & 1]
+        quiet = 0 if words or dut.hit_valid_o.value == 1 or dut.idle_o.value == 0 else quiet + 1
+        await FallingEdge(dut.clk_i)
+        limits.answer(asked)
+    return records, limits, without
+
+
+def filled(frame, records, limits):
+    """The records, with those of rays that have none: hidden ones the golden model's, others an end without a hit."""
+    there = {(r["surface"], r["x"], r["y"]) for r in records}
+    out, hidden, empty = list(records), [], []
+    for hits in frame.surfaces:
+        x0, y0, x1, y1 = hits.surface.rect
+        near = hits.surface.words[HEADER_WORDS - 1] & ((1 << DEPTH_WIDTH) - 1)
+        for y in range(y0, y1 + 1):
+            for x in range(x0, x1 + 1):
+                place, key = (y - y0, x - x0), {"surface": hits.surface.index, "x": x, "y": y}
+                hides = limits.hides(y & 1, x, near)
+                assert not (hides and tuple(key.values()) in there), f"{key} is hidden and has a ray"
+                if hides:
+                    hidden.append(y & 1)
+                    out += [
+                        key | {"hit": 1, "last": 0, "t": int(hits.t[*place, i]), "depth": int(hits.depth[*place, i]),
+                               "point": hits.point[*place, i].tolist(), "enters": int(hits.enters[*place, i])}
+                        for i in range(hits.t.shape[2]) if hits.t[*place, i] >= 0
+                    ]  # fmt: skip
+                elif tuple(key.values()) not in there:
+                    empty.append(y & 1)
+                if tuple(key.values()) not in there:
+                    out.append(key | {"hit": 0, "last": 1, "steps": hits.steps[*place]})
+    return out, hidden, empty
+
+
+async def compare(dut, random, frame, skips=(), share=0.0, stall=0.0):
+    """A frame against the golden model; how many pixels have no ray, by reason."""
+    records, limits, without = await cast(dut, random, frame, skips, share, stall)
+    records, hidden, empty = filled(frame, records, limits)
+    test_core.compare(frame, records)
+    assert hidden == [row for reason, row in without if reason == HIDDEN]
+    assert sorted(empty) == sorted(row for reason, row in without if reason != HIDDEN)
+    return [sum(reason == r for r, _ in without) for reason in range(3)]
+
+
+async def start(dut):
+    """Clock and reset, with the ports at rest."""
+    for name in ("load_valid_i", "hit_ready_i", "limit_valid_i", "limit_i", "frame_i", "load_i"):
+        getattr(dut, name).value = 0
+    await bench.start(dut)
+
+
+@cocotb.test
+@cocotb.parametrize(scene=("torus", "glass", spirals.MIXED))
+async def equals_golden(dut, scene):
+    """Nothing is skipped: every ray's records are the golden model's, quadrics, quartics and spirals."""
+    random = bench.rng(scene)
+    await start(dut)
+    frame = trace_golden(compiled_frame(scene), CONFIG)
+    assert frame.counts()["hits"] > 10
+    assert await compare(dut, random, frame, stall=0.3) == [0, 0, 0]
+
+
+@cocotb.test
+@cocotb.parametrize(skips=(("rootless",), ("boxes",), ("rootless", "boxes")))
+async def dropped_rays_have_no_hit(dut, skips):
+    """Each reason alone, and both: a ray without records has no hit in the golden model, and is told once."""
+    random = bench.rng(f"{skips}")
+    await start(dut)
+    counts = [0, 0, 0]
+    for scene in ("gallery", "torus"):
+        frame = trace_golden(compiled_frame(scene), CONFIG)
+        counts = [a + b for a, b in zip(counts, await compare(dut, random, frame, skips), strict=True)]
+    assert counts[HIDDEN] == 0 and (counts[ROOTLESS] > 0) == ("rootless" in skips), counts
+    assert (counts[BEYOND] > 0) == ("boxes" in skips) or len(skips) == 2, counts
+
+
+@cocotb.test
+async def hidden_pixels_have_no_ray(dut):
+    """Random limits: exactly the pixels whose limit is nearer than the near plane are left out, of both kinds."""
+    random = bench.rng()
+    await start(dut)
+    frame = trace_golden(compiled_frame(spirals.MIXED), CONFIG)
+    counts = await compare(dut, random, frame, ("rootless", "boxes", "depth"), share=0.5)
+    assert counts[HIDDEN] > 10, counts
+
+
+def test_cast():
+    """Quartics, quadrics and spirals."""
+    bench.run(__name__, "rdx_cast", parameters(CONFIG))

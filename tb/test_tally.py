@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pixels that wait for a verdict: zero_o of each line is that as many verdicts came as pixels were added."""
+
+import cocotb
+import pytest
+from cocotb.triggers import FallingEdge
+
+import bench
+from raydix.formats import PIXEL_WIDTH
+
+
+@cocotb.test
+@cocotb.parametrize(most=(1, 7, 1 << PIXEL_WIDTH))
+async def counts_both_lines(dut, most):
+    """Random additions and verdicts of both lines in one clock, never more verdicts than pixels; often to zero."""
+    random, width = bench.rng(most), bench.parameter(dut, "Verdicts")
+    dut.add_i.value = dut.verdict_i.value = 0
+    await bench.start(dut)
+    waiting, zeros, full = [0, 0], 0, 0
+    for clock in range(9000):
+        add = max(waiting) < (most // 2 if clock < 500 else 8) and random.random() < 0.5
+        row, count = random.getrandbits(1), random.randint(1, min(most, most if clock < 500 else 9))
+        if clock in (0, 1) and most > 4000:
+            add, row, count = True, clock, most
+        dut.add_i.value, dut.add_row_i.value, dut.add_count_i.value = int(add), row, count - 1
+        if add:
+            waiting[row] += count
+        verdicts = rows = 0
+        for bit in range(width):
+            of = random.getrandbits(1)
+            rows |= of << bit
+            if waiting[of] and random.random() < (0.8 if clock // 64 % 2 else 0.1):
+                verdicts |= 1 << bit
+                waiting[of] -= 1
+        dut.verdict_i.value, dut.verdict_row_i.value = verdicts, rows
+        full += verdicts == (1 << width) - 1
+        await FallingEdge(dut.clk_i)
+        found = int(dut.zero_o.value)
+        assert found == sum((n == 0) << row for row, n in enumerate(waiting)), f"zero_o = {found:02b}, {waiting}"
+        zeros += found != 0
+    assert zeros > 100 and full, f"{zeros} clocks with zero, {full} with all verdicts"
+
+
+@cocotb.test
+async def counts_far(dut):
+    """64 surfaces of 4,096 pixels, then as many verdicts: zero with the last and not before."""
+    width = bench.parameter(dut, "Verdicts")
+    dut.add_i.value = dut.verdict_i.value = 0
+    await bench.start(dut)
+    pixels = 64 << PIXEL_WIDTH
+    dut.add_i.value, dut.add_count_i.value, dut.add_row_i.value = 1, (1 << PIXEL_WIDTH) - 1, 1
+    for _ in range(64):
+        await FallingEdge(dut.clk_i)
+    dut.add_i.value = 0
+    dut.verdict_i.value = dut.verdict_row_i.value = (1 << width) - 1
+    rest = pixels % width
+    for clock in range(pixels // width):
+        if clock % 512 == 0:
+            assert int(dut.zero_o.value) == 1, f"{pixels - width * clock} pixels wait"
+        await FallingEdge(dut.clk_i)
+    if rest:
+        dut.verdict_i.value = (1 << rest) - 1
+        assert int(dut.zero_o.value) == 1
+        await FallingEdge(dut.clk_i)
+    dut.verdict_i.value = 0
+    assert int(dut.zero_o.value) == 3
+
+
+@cocotb.test
+async def reset_zeroes(dut):
+    """A reset of a clock sets both counts to 0."""
+    dut.add_i.value = dut.verdict_i.value = 0
+    await bench.start(dut)
+    for row in range(2):
+        dut.add_i.value, dut.add_count_i.value, dut.add_row_i.value = 1, 5, row
+        await FallingEdge(dut.clk_i)
+    assert int(dut.zero_o.value) == 0
+    dut.add_i.value = 0
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 1
+    assert int(dut.zero_o.value) == 3
+
+
+@pytest.mark.parametrize("verdicts", [3, 4])
+def test_tally(verdicts):
+    """The processor's four verdicts a clock, and three."""
+    bench.run(__name__, "rdx_tally", dict(Verdicts=verdicts))

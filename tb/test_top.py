@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The processor as a host and a display see it: AXI4-Lite, AXI4-Stream, stalls, resets, illegal programs."""
+
+import functools
+import logging
+
+import cocotb
+import numpy as np
+from cocotb.triggers import ClockCycles, FallingEdge, with_timeout
+from cocotbext.axi import AxiStreamBus, AxiStreamSink
+
+import bench
+from raydix import processor
+from raydix.compile import compile_scene
+from raydix.config import Config
+from raydix.golden import trace_golden
+from raydix.raster import QUARTIC_AT, ROOTS_AT, VECTOR_AT
+from raydix.rtl import ROOT, top_parameters
+from raydix.scene import load_scene
+from raydix.shade import compose
+from test_csr import LIMIT, MAP, OK, Host
+
+CONFIG = Config(2, 6, 32, 2, 1, "certified", surfaces=3, layers=2, max_width=24, beat=2)
+SIZE = 20, 9  # an odd number of lines
+
+
+class Pins:
+    """The AXI4-Stream ports under the names that cocotbext-axi expects."""
+
+    def __init__(self, dut):
+        self._name, self._log = dut._name, dut._log
+        for signal in ("tvalid_o", "tready_i", "tdata_o", "tkeep_o", "tuser_o", "tlast_o"):
+            setattr(self, f"m_axis_{signal[:-2]}", getattr(dut, f"m_axis_{signal}"))
+
+
+class Display:
+    """Takes lines of pixels; ``stall``: probability of a clock without ready."""
+
+    def __init__(self, dut, stall, rng):
+        logging.getLogger("cocotb").setLevel(logging.WARNING)
+        self.sink = AxiStreamSink(AxiStreamBus.from_prefix(Pins(dut), "m_axis"), dut.clk_i, dut.rst_ni, False)
+        if stall:
+            self.sink.set_pause_generator(iter(lambda: rng.random() < stall, None))
+
+    async def picture(self, width, height):
+        """The next picture, (height, width, 3) codes; its marks are checked."""
+        rows = []
+        for row in range(height):
+            line = await with_timeout(cocotb.start_soon(self.sink.recv()), LIMIT, "ns")
+            assert len(line.tdata) == 3 * width, f"line {row}: {len(line.tdata)} bytes"
+            marks = [line.tuser] * 3 * width if isinstance(line.tuser, int) else line.tuser  # of each byte
+            beat = 3 * CONFIG.beat
+            assert list(marks) == [int(row == 0)] * beat + [0] * (3 * width - beat), f"line {row}: {marks}"
+            rows.append(np.array(line.tdata, np.uint8).reshape(width, 3)[:, ::-1])  # blue comes first
+        return np.stack(rows)
+
+
+@functools.cache
+def golden(name, size=SIZE):
+    """Scene, words and picture of a scene by the golden model."""
+    scene = load_scene(ROOT / "scenes" / f"{name}.toml", *size)
+    compiled = compile_scene(scene, CONFIG)
+    return scene, compiled, compose(scene, trace_golden(compiled, CONFIG), CONFIG, CONFIG.layers).rgb
+
+
+async def program(host, name, change=None):
+    """Do to the registers what the driver does for a frame; ``change`` may alter an operation (address, value)."""
+    scene, compiled, _ = golden(name)
+    driver = processor.Host()
+    driver.frame(scene, compiled, CONFIG)
+    for kind, address, value, _ in driver.operations:
+        assert kind == processor.WRITE
+        address, value = (change or (lambda *same: same))(address, value)
+        assert await host.write(address, value) == OK
+
+
+async def begin(dut, stall):
+    """Host, display and a reset."""
+    rng = bench.rng(stall)
+    host, display = Host(dut, stall, rng), Display(dut, stall, rng)
+    await bench.start(dut)
+    return host, display
+
+
+@cocotb.test
+@cocotb.parametrize(stall=(0.0, 0.4))
+async def frames_equal_golden(dut, stall):
+    """Frames of three scenes, each written while the one before is made: every pixel is the golden model's."""
+    host, display = await begin(dut, stall)
+    names = ("sphere", "cone", "ellipsoid", "sphere")
+
+    async def write_all():
+        for name in names:
+            while (await host.get("STATUS"))["queued"]:
+                pass
+            await program(host, name)
+
+    writing = cocotb.start_soon(write_all())
+    for name in names:
+        assert (await display.picture(*SIZE) == golden(name)[2]).all(), name
+    await writing
+    while (await host.get("FRAMES"))["count"] < len(names):
+        pass
+    counted = {name.lower(): (await host.get(name))["count"] for name in ("RAYS", "HITS", "VISIBLE", "LAYERS_LOST")}
+    frame = golden(names[-1])
+    assert counted["layers_lost"] == 0 and 0 < counted["visible"] <= counted["hits"]
+    rows = frame[1].surfaces[0].rect
+    assert counted["rays"] <= (rows[2] - rows[0] + 1) * (rows[3] - rows[1] + 1)
+
+
+@cocotb.test
+@cocotb.parametrize(after=(1, 200, 900, 2500))
+async def reset_in_a_frame(dut, after):
+    """A reset a number of clocks after a start: the next frame is as if nothing had been."""
+    host, display = await begin(dut, 0.0)
+    await program(host, "sphere")
+    await ClockCycles(dut.clk_i, after)
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 0
+    await ClockCycles(dut.clk_i, 3)
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 1
+    display.sink.clear()
+    await program(host, "cone")
+    assert (await display.picture(*SIZE) == golden("cone")[2]).all()
+
+
+@cocotb.test
+async def abort_ends_with_background(dut):
+    """After an abort the frame has all its pixels, the last ones background; the next frame is whole."""
+    host, display = await begin(dut, 0.0)
+    await program(host, "sphere")
+    await host.put("CONTROL", abort=1)
+    picture = await display.picture(*SIZE)
+    whole = golden("sphere")[2]
+    assert (picture[-1] == picture[-1, 0]).all() and (picture != whole).any()
+    same = (picture == whole).all(axis=(1, 2))
+    background = (picture == picture[-1, 0]).all(axis=(1, 2))
+    assert (same | background).all(), "a line that is neither the picture's nor background"
+    await program(host, "cone")
+    assert (await display.picture(*SIZE) == golden("cone")[2]).all()
+
+
+def head_with(low, width, value):
+    """Changes a field of word 0 of slot 0."""
+    base = MAP.WINDOWS["DESCRIPTORS"]["address"]
+
+    def change(address, word):
+        if address == base:
+            word = word & ~(((1 << width) - 1) << low) | value << low
+        return address, word
+
+    return change
+
+
+def rectangle_with(shift, value):
+    """Changes a field of word 1 of slot 0."""
+    base = MAP.WINDOWS["DESCRIPTORS"]["address"] + 8
+
+    def change(address, word):
+        if address == base + shift // 32 * 4:
+            word = word & ~(0xFFF << shift % 32) | value << shift % 32
+        return address, word
+
+    return change
+
+
+ILLEGAL = {
+    "KIND": head_with(QUARTIC_AT, 1, 1),
+    "KIND of a spiral": head_with(VECTOR_AT, 1, 1),
+    "ROOTS": head_with(ROOTS_AT, 3, 5),
+    "ROOTS of 0": head_with(ROOTS_AT, 3, 0),
+    "RULE": head_with(ROOTS_AT + 3, 1, 1),
+    "SURFACE": head_with(0, 6, CONFIG.surfaces),
+    "RECTANGLE": rectangle_with(32, SIZE[0]),
+    "RECTANGLE reversed": rectangle_with(16, 4000),
+}
+
+
+@cocotb.test
+@cocotb.parametrize(what=tuple(ILLEGAL))
+async def illegal_program_is_told(dut, what):
+    """Error flag, code, slot and interrupt, no pixel and no hang; the next frame is whole."""
+    host, display = await begin(dut, 0.0)
+    await host.put("IRQ_ENABLE", error=1)
+    await program(host, "sphere", ILLEGAL[what])
+    while not dut.irq_o.value:
+        await FallingEdge(dut.clk_i)
+    assert (await host.get("STATUS")) == {"busy": 0, "queued": 0, "done": 0, "error": 1}
+    assert (await host.get("ERROR")) == {"code": MAP.ERRORS[what.split()[0]][0], "slot": 0}
+    await ClockCycles(dut.clk_i, 500)
+    assert display.sink.empty() and not dut.m_axis_tvalid_o.value
+    await host.put("IRQ_STATUS", error=1)
+    await program(host, "cone")
+    assert (await display.picture(*SIZE) == golden("cone")[2]).all()
+
+
+@cocotb.test
+async def empty_frame_is_background(dut):
+    """A frame without a descriptor is background all over."""
+    host, display = await begin(dut, 0.3)
+    count = MAP.REGISTERS["COUNT"]["address"]
+    await program(host, "sphere", lambda address, value: (address, 0 if address == count else value))
+    picture = await display.picture(*SIZE)
+    assert (picture == golden("sphere")[2][0, 0]).all()
+
+
+def test_top():
+    """A small processor: quadrics, three surfaces, two pixels a beat."""
+    bench.run(__name__, "rdx_top", top_parameters(CONFIG))
