@@ -143,13 +143,26 @@ async def opaque_surfaces(dut):
     """opaque_o has the bit of each surface of the frame."""
     random = bench.rng()
     await walking.rest(dut)
-    for _ in range(3):
+    for fixed in (None, 1, 0, None):
         frame = walking.random_frame(random, bench.parameter(dut, "Slots"), kinds(dut))
-        bits = [random.getrandbits(1) for _ in frame.descriptors]
+        bits = [random.getrandbits(1) if fixed is None else fixed for _ in frame.descriptors]
         for d, bit in zip(frame.descriptors, bits, strict=True):
             d[0] |= bit << OPAQUE_AT
         await whole(dut, random, frame)
         looks.differs(0, {}, opaque_o=(bits, [int(dut.opaque_o.value[i]) for i in range(len(bits))]))
+
+
+@cocotb.test
+async def abort_and_empty_frame(dut):
+    """After abort_i at most one row begins, whose words are whole; an empty frame has none; every line ends."""
+    random = bench.rng()
+    await walking.rest(dut)
+    for _ in range(12):
+        frame = walking.random_frame(random, random.choice(counts(dut)), kinds(dut))
+        result, side = await feed(dut, random, frame, abort=random.randrange(200), stall=0.2)
+        assert [event for event in result.events if event[0] == "end"] == [("end", y) for y in range(frame.height)]
+        assert result.after_abort <= 1 and not side.words
+        await whole(dut, random, walking.Frame(random, 3, 2, [], []))
 
 
 @cocotb.test

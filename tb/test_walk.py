@@ -99,10 +99,11 @@ async def no_gap(dut, share):
     random = bench.rng(share)
     begin(dut)
     limits = looks.Limits(dut, random, share)
+    limits.depths = (0, 1, looks.FAR - 1)  # all of them hide
     await bench.start(dut)
     for width in (1, 2, 3, 4, 9):
         rows = [(x0 := random.randrange(4000), x0 + width - 1, random.getrandbits(1), looks.FAR) for _ in range(8)]
-        starts, left = await walk(dut, random, rows, limits)
+        starts, left = await walk(dut, random, rows, limits, stall=share)  # hidden ones do not wait for ready
         period = max(3, width)
         assert starts == [starts[0] + period * i for i in range(8)], starts
         # a pixel leaves the clock after its start or step
