@@ -11,9 +11,9 @@ rdx_normalize.sv
 rdx_guess.sv
 rdx_select.sv
 rdx_outside.sv
-rdx_carry.sv
-rdx_split.sv
 rdx_descend.sv
+rdx_follow.sv
+rdx_split.sv
 rdx_multiply.sv
 rdx_cordic.sv
 rdx_turn.sv

@@ -19,23 +19,24 @@ module rdx_algebraic #(
     parameter bit Sift = 1'b0,  // rays that cannot have a hit do not enter the ring
     localparam int unsigned Quads = D == 4 ? 9 : 3
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic                 ray_valid_i,
-    output logic                      ray_ready_o,
-    input  wire rdx_pkg::ray_t        ray_i,
-    input  wire rdx_pkg::ends_t       ends_i,
-    input  wire logic                 quartic_i,
-    input  wire rdx_pkg::quad_t       quads_i     [Quads],
-    output logic                      hit_valid_o,
-    input  wire logic                 hit_ready_i,
-    output rdx_pkg::hit_t             hit_o,
-    output logic                [5:0] steps_o,
-    input  wire logic                 rootless_i,
-    input  wire logic                 boxes_i,
-    output logic                      rootless_o,
-    output logic                      beyond_o,
-    output logic                      sifted_row_o
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire logic                  ray_valid_i,
+    output logic                       ray_ready_o,
+    input  wire rdx_pkg::ray_t         ray_i,
+    input  wire rdx_pkg::ends_t        ends_i,
+    input  wire logic                  quartic_i,
+    input  wire rdx_pkg::quad_t        quads_i     [Quads],
+    output logic                       hit_valid_o,
+    input  wire logic                  hit_ready_i,
+    output rdx_pkg::hit_t              hit_o,
+    output logic                 [5:0] steps_o,
+    input  wire logic                  rootless_i,
+    input  wire logic                  boxes_i,
+    output logic                       rootless_o,
+    output logic                       beyond_o,
+    output logic                       sifted_row_o
 );
   import rdx_pkg::*;
 
@@ -102,6 +103,7 @@ module rdx_algebraic #(
       .clk_i,
       .rst_ni,
       .form_i('0),
+      .modes_i,
       .ray_valid_i(wanted_valid),
       .ray_ready_o(wanted_ready),
       .ray_i(wanted),

@@ -55,6 +55,9 @@ module rdx_cast #(
   hit_t hits[2];
   logic [5:0] steps[2];
 
+  wire modes_t modes =
+  '{first_level: 5'(6'(K) - frame_i.k_stop), boxes: frame_i.skip.boxes, early: frame_i.skip.early}
+  ;
   rdx_scan #(
       .D(D),
       .Vector(Vecsum != VecsumNone)
@@ -95,6 +98,7 @@ module rdx_cast #(
     ) u_algebraic (
         .clk_i,
         .rst_ni,
+        .modes_i(modes),
         .ray_valid_i(ray_valid && !vector),
         .ray_ready_o(ready[0]),
         .ray_i(ray),
@@ -134,6 +138,7 @@ module rdx_cast #(
         .clk_i,
         .rst_ni,
         .form_i(form),
+        .modes_i(modes),
         .ray_valid_i(ray_valid && vector),
         .ray_ready_o(ready[1]),
         .ray_i(ray),

@@ -91,6 +91,7 @@ module rdx_core #(
     ) u_algebraic (
         .clk_i,
         .rst_ni,
+        .modes_i(ModesDefault),
         .ray_valid_i(raster_valid && !vector),
         .ray_ready_o(ready[0]),
         .ray_i(raster_ray),
@@ -128,6 +129,7 @@ module rdx_core #(
         .clk_i,
         .rst_ni,
         .form_i(form),
+        .modes_i(ModesDefault),
         .ray_valid_i(raster_valid && vector),
         .ray_ready_o(ready[1]),
         .ray_i(raster_ray),

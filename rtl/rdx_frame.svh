@@ -12,6 +12,14 @@ typedef struct packed {
   logic rectangle;  // pixels outside of a surface's screen rectangle
 } skip_t;
 
+// How items are searched, for all of a frame.
+typedef struct packed {
+  logic [4:0] first_level;  // K less the steps to a hit: a descent begins there, so that t has fewer digits
+  logic       boxes;        // cells beyond a face of the box are no candidates; else only the hit point is tested
+  logic       early;        // items that are done leave the ring at once; else after as many steps as a hit takes
+} modes_t;
+localparam modes_t ModesDefault = '{first_level: '0, boxes: 1'b1, early: 1'b1};
+
 // Shading: linear intensities, and components of normals.
 typedef logic [UnitWidth-1:0] unit_t;
 typedef logic signed [NormalWidth-1:0] normal_t;

@@ -5,7 +5,7 @@
 // smaller second difference is taken, [j, j+1] on a tie; at either end only one cell is left.
 //
 // Formats    values_i: indicator at the J+1 boundaries, sWp0. Magnitudes and differences are unsigned, W bits.
-// Timing     latency rdx_pkg::select_latency(N1, RulePaper) - 1 clocks, one guess a clock; no reset, no stall.
+// Timing     latency rdx_pkg::select_latency(N1, RulePaper) - 2 clocks, one guess a clock; no reset, no stall.
 //            Registers: magnitudes; then one after each two levels of the comparator tree. Then cell_o is combinational.
 // Model      model/raydix/guess.py
 `default_nettype none

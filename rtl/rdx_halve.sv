@@ -4,7 +4,7 @@
 // Formats    b_i, left_o, right_o: D+1 Bernstein coefficients, sWp0.
 // Rounding   each average is (a + b + 1) >> 1: half up, at most half an ulp, never outside [min(a, b), max(a, b)].
 // Overflow   cannot happen: every output lies within the hull of the inputs.
-// Timing     latency Stages clocks (0 is combinational), one cell a clock; no reset, no stall.
+// Timing     latency Stages clocks (0 is combinational), one less for Last = 0, one cell a clock; no reset, no stall.
 //            The registers stand behind the D rows of averages, as evenly as they can.
 // Error      row r adds at most 1/2 ulp: the inner end is within D/2 ulp of the exact value; outer ends are exact.
 // Model      model/raydix/halve.py
@@ -13,7 +13,8 @@
 module rdx_halve #(
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
-    parameter int unsigned Stages = 2
+    parameter int unsigned Stages = 2,
+    parameter bit Last = 1'b1  // 0: without the registers behind the last row
 ) (
     input  wire logic                clk_i,
     input  wire logic signed [W-1:0] b_i    [D+1],
@@ -35,7 +36,8 @@ module rdx_halve #(
   // After row r the left half's places 0 to r are final, and so are the right half's from D-r on, in work; work[0]
   // to work[D-r] are the averages of the row.
   for (genvar r = 1; r <= D; r++) begin : gen_row
-    localparam int unsigned Registers = (r * Stages) / D - ((r - 1) * Stages) / D;
+    localparam int unsigned All = (r * Stages) / D - ((r - 1) * Stages) / D;
+    localparam int unsigned Registers = r == D && !Last && All > 0 ? All - 1 : All;
     logic signed [W-1:0] left_d[D+1];  // places below r are final
     logic signed [W-1:0] work_d[D+1];  // places above D-r are the right half's
 

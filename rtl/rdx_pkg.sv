@@ -136,14 +136,17 @@ package rdx_pkg;
   `include "rdx_frame.svh"
   `include "rdx_material.svh"
 
-  // Latency of rdx_select: one clock for the certified rule; the paper rule needs one for magnitudes, one for
-  // each two levels of its comparator tree over J+1 values, and one for the second differences.
+  // Latency of rdx_select: signs, masks, candidates; the paper rule needs one clock for magnitudes, one for each two
+  // levels of its comparator tree over J+1 values, one for the second differences, and that of the candidates.
   function automatic int unsigned select_latency(int unsigned n1, int unsigned rules);
-    return (rules & RulePaper) != 0 ? 2 + (n1 + 2) / 2 : 1;
+    return (rules & RulePaper) != 0 ? 3 + (n1 + 2) / 2 : 3;
   endfunction
 
-  // Latency of rdx_normalize: shift amount, then shift.
-  localparam int unsigned NormalizeLatency = 2;
+  // Latency of rdx_settle: middle, box, verdict; beside it bits in use, shift amount, shift.
+  localparam int unsigned SettleLatency = 3;
+
+  // Latency of rdx_quartic: operands, products, sums, weights.
+  localparam int unsigned QuarticLatency = 7;
 
   // Latencies of the vector-sum evaluator: nearest turn, distance from the tube, from a ball, and all of a lane.
   localparam int unsigned TurnLatency = 6;
@@ -173,16 +176,15 @@ package rdx_pkg;
     return n1 * halve_stages + VecsumLatency + phases((1 << n1) - 1, lanes) - 1 + BoundLatency;
   endfunction
 
-  // Latency from the choice to the chosen cell. D = 1: its ends are halved again, in N1 clocks.
+  // Latency from the choice to the chosen cell, which is halved again, two rows of averages a clock.
   function automatic int unsigned pick_latency(int unsigned n1, int unsigned d);
-    return d > 1 ? 1 : n1;
+    return n1 * ((d + 1) / 2);
   endfunction
 
-  // Latency of rdx_step: cells, select, pick, normalise.
+  // Latency of rdx_step: cells, select, pick, settle.
   function automatic int unsigned step_latency(int unsigned n1, int unsigned d, int unsigned halve_stages,
                                                int unsigned lanes, int unsigned rules);
-    return cells_latency(n1, d, halve_stages, lanes) + select_latency(n1, rules) + pick_latency(n1, d) +
-        NormalizeLatency;
+    return cells_latency(n1, d, halve_stages, lanes) + select_latency(n1, rules) + pick_latency(n1, d) + SettleLatency;
   endfunction
 
   // Largest shift of the step's normaliser, 2^b - 1: it covers a double root, which loses 2*n1 bits a step.

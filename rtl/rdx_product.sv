@@ -8,9 +8,9 @@
 //            segment_o.b: sWp0, normalised so that the largest coefficient uses all W bits.
 // Rounding   operands half up (2^-27), products floor (2^-12), result floor to W bits; all else is exact.
 // Overflow   cannot happen: compile keeps |Q1|, |Q2| < 2^62 - 2^26 and |Q3| <= 2^59 (2^60 without a product), so |6F| < 2^63.
-// Timing     latency 6 clocks that advance (3 for D = 2), one ray a clock; it advances when the last stage is
-//            empty or taken.
-// Reset      valid only.
+// Timing     a ray a clock; it is at the output 14 clocks later (7 for D = 2) at the earliest. No stage waits: rays are
+//            let in as long as there is a place in the queues at the end for every ray under way, and ray_ready_o is a register.
+// Reset      control only.
 // Error      docs/method.md, "Rounding"
 // Model      model/raydix/product.py
 `default_nettype none
@@ -42,28 +42,25 @@ module rdx_product #(
     $fatal(1, "rdx_product: D = %0d; allowed: 2 (quadrics) or 4 (quartics too)", D);
   end
 
-  localparam int unsigned FormLatency = D == 4 ? 4 : 1;  // operands, products, sums, weights
-  localparam int unsigned Latency = FormLatency + NormalizeLatency;
+  localparam int unsigned NormalizeStages = 4;
+  localparam int unsigned Latency = (D == 4 ? QuarticLatency : 0) + NormalizeStages;
+  localparam int unsigned Places = Latency + 4 > 8 ? 16 : 8;  // and the queue, and until a place is free
 
-  // ---- stream: all stages advance together ----
+  // ---- rays under way ----
+  logic [$clog2(Places):0] count_q, count_d;
+  wire take = ray_valid_i && ray_ready_o;
+  wire give = ray_valid_o && ray_ready_i;
+  assign count_d = count_q + ($clog2(Places) + 1)'(take) - ($clog2(Places) + 1)'(give);
   logic [Latency-1:0] valid_q;
-  ray_t ray_q[Latency];
-  ends_t ends_q[Latency];
-  wire en = !valid_q[Latency-1] || ray_ready_i;
-  assign ray_ready_o = en;
-  assign ray_valid_o = valid_q[Latency-1];
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) valid_q <= '0;
-    else if (en) valid_q <= {valid_q[Latency-2:0], ray_valid_i};
-  end
-  always_ff @(posedge clk_i) begin
-    if (en) begin
-      ray_q[0]  <= ray_i;
-      ends_q[0] <= ends_i;
-      for (int unsigned i = 1; i < Latency; i++) begin
-        ray_q[i]  <= ray_q[i-1];
-        ends_q[i] <= ends_q[i-1];
-      end
+    if (!rst_ni) begin
+      valid_q <= '0;
+      count_q <= '0;
+      ray_ready_o <= 1'b0;
+    end else begin
+      valid_q <= {valid_q[Latency-2:0], take};
+      count_q <= count_d;
+      ray_ready_o <= count_d != ($clog2(Places) + 1)'(Places);
     end
   end
 
@@ -71,11 +68,10 @@ module rdx_product #(
   quad_t form[D+1];
   if (D == 2) begin : gen_quadric
     wire unused = quartic_i;
-    always_ff @(posedge clk_i) if (en) form <= quads_i;
+    assign form = quads_i;
   end else begin : gen_quartic
     rdx_quartic u_quartic (
         .clk_i,
-        .en_i  (en),
         .quartic_i,
         .quads_i,
         .form_o(form)
@@ -84,23 +80,52 @@ module rdx_product #(
 
   logic signed [W-1:0] scaled[D+1];
   rdx_normalize #(
-      .WIn  (QuadAccWidth),
-      .WOut (W),
+      .WIn(QuadAccWidth),
+      .WOut(W),
       .Count(D + 1),
-      .Limit(QuadAccWidth - 1)
+      .Limit(QuadAccWidth - 1),
+      .Stages(NormalizeStages)
   ) u_normalize (
       .clk_i,
-      .en_i(en),
+      .en_i(1'b1),
       .values_i(form),
       .values_o(scaled)
   );
 
-  assign ray_o = ray_q[Latency-1];
-  always_comb begin
-    segment_o.ends = ends_q[Latency-1];
-    for (int unsigned i = 0; i <= D; i++) segment_o.b[i] = scaled[i];
-  end
+  // ---- queues: what belongs to a ray waits in one for its control points in the other ----
+  logic [D:0][W-1:0] points;
+  always_comb for (int unsigned i = 0; i <= D; i++) points[i] = scaled[i];
+  logic rays_ready, points_ready, rays_valid, points_valid;
+  rdx_fifo #(
+      .W($bits(ray_t) + $bits(ends_t)),
+      .Depth(Places)
+  ) u_rays (
+      .clk_i,
+      .rst_ni,
+      .valid_i(take),
+      .ready_o(rays_ready),
+      .data_i ({ray_i, ends_i}),
+      .valid_o(rays_valid),
+      .ready_i(give),
+      .data_o ({ray_o, segment_o.ends})
+  );
+  rdx_fifo #(
+      .W((D + 1) * W),
+      .Depth(Places)
+  ) u_points (
+      .clk_i,
+      .rst_ni,
+      .valid_i(valid_q[Latency-1]),
+      .ready_o(points_ready),
+      .data_i (points),
+      .valid_o(points_valid),
+      .ready_i(give),
+      .data_o (segment_o.b)
+  );
+  assign ray_valid_o = rays_valid && points_valid;
 
+  wire unused_ready = &{1'b0, rays_ready, points_ready};
+  `RDX_ASSERT(a_places, (rays_ready || !take) && (points_ready || !valid_q[Latency-1]))
   `RDX_STREAM(a_ray, ray_valid_o, ray_ready_i, {ray_o, segment_o})
 
 endmodule

@@ -8,56 +8,88 @@
 // Formats    quads_i: s64p0, c then a then b; operands of the product s36p0 (accumulator / 2^27, half up), products s60p0
 //            (/ 2^12, floor); form_o: s64p0.
 // Overflow   cannot happen: compile keeps |a|, |b| < 2^62 - 2^26 and |c| <= 2^59, or 2^60 where quartic_i = 0.
-// Timing     latency 4 clocks in which en_i = 1: operands, products, sums, weights; one a clock.
+// Timing     latency rdx_pkg::QuarticLatency = 7 clocks: operands, products (3), sums (2), weights; each adds two numbers. One
+//            a clock; no reset, no stall.
 // Model      model/raydix/quartic.py
 `default_nettype none
 
 module rdx_quartic (
     input  wire logic           clk_i,
-    input  wire logic           en_i,
     input  wire logic           quartic_i,
     input  wire rdx_pkg::quad_t quads_i  [9],
     output rdx_pkg::quad_t      form_o   [5]
 );
   import rdx_pkg::*;
 
-  localparam type operand_t = logic signed [OperandWidth-1:0];
-  localparam type twice_t = logic signed [2*OperandWidth-1:0];
+  localparam int unsigned ProductWidth = 2 * OperandWidth - ProductDrop;
+  localparam type product_t = logic signed [ProductWidth-1:0];
 
+  // half up: the bits kept, and the one below them
   function automatic operand_t operand(quad_t value);
-    return operand_t'((value + quad_t'(64'd1 << (OperandShift - 1))) >>> OperandShift);
-  endfunction
-
-  function automatic quad_t multiply(operand_t a, operand_t b);
-    return quad_t'((twice_t'(a) * twice_t'(b)) >>> ProductDrop);
+    return operand_t'(value >>> OperandShift) + operand_t'({1'b0, value[OperandShift-1]});
   endfunction
 
   operand_t a_q[3], b_q[3];
-  quad_t c_q[3], c_qq[3];  // Q3, beside the operands and the products
-  quad_t    product_q[3][3];  // a[i] * b[j]
-  quad_t    sum_q[5];
   always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      for (int unsigned i = 0; i < 3; i++) begin
-        a_q[i] <= quartic_i ? operand(quads_i[3+i]) : '0;
-        b_q[i] <= quartic_i ? operand(quads_i[6+i]) : '0;
-      end
-      c_q  <= quads_i[0:2];
-      c_qq <= c_q;
-      for (int unsigned i = 0; i < 3; i++) begin
-        for (int unsigned j = 0; j < 3; j++) product_q[i][j] <= multiply(a_q[i], b_q[j]);
-      end
-      sum_q[0]  <= product_q[0][0] + c_qq[0];
-      sum_q[1]  <= product_q[0][1] + product_q[1][0] + c_qq[0] + c_qq[1];
-      sum_q[2]  <= product_q[0][2] + product_q[2][0] + c_qq[0] + c_qq[2] + ((product_q[1][1] + c_qq[1]) <<< 2);
-      sum_q[3]  <= product_q[1][2] + product_q[2][1] + c_qq[1] + c_qq[2];
-      sum_q[4]  <= product_q[2][2] + c_qq[2];
-      form_o[0] <= (sum_q[0] <<< 2) + (sum_q[0] <<< 1);
-      form_o[1] <= (sum_q[1] <<< 1) + sum_q[1];
-      form_o[2] <= sum_q[2];
-      form_o[3] <= (sum_q[3] <<< 1) + sum_q[3];
-      form_o[4] <= (sum_q[4] <<< 2) + (sum_q[4] <<< 1);
+    for (int unsigned i = 0; i < 3; i++) begin
+      a_q[i] <= quartic_i ? operand(quads_i[3+i]) : '0;
+      b_q[i] <= quartic_i ? operand(quads_i[6+i]) : '0;
     end
+  end
+
+  quad_t product[3][3];  // a[i] * b[j]
+  for (genvar i = 0; i < 3; i++) begin : gen_row
+    for (genvar j = 0; j < 3; j++) begin : gen_product
+      product_t scaled;
+      rdx_multiply #(
+          .W(ProductWidth),
+          .Drop(ProductDrop)
+      ) u_multiply (
+          .clk_i,
+          .en_i(1'b1),
+          .a_i(a_q[i]),
+          .b_i(b_q[j]),
+          .product_o(scaled)
+      );
+      assign product[i][j] = quad_t'(scaled);
+    end
+  end
+
+  // Q3 beside the operands and the products
+  quad_t c_i[3], c[3];
+  assign c_i = quads_i[0:2];
+  rdx_delay #(
+      .T(quad_t),
+      .Count(3),
+      .Depth(QuarticLatency - 3)
+  ) u_wait (
+      .clk_i,
+      .data_i(c_i),
+      .data_o(c)
+  );
+
+  quad_t outer_q[5], lower_q[5], middle_q, sum_q[5], middle_qq;
+  always_ff @(posedge clk_i) begin
+    outer_q[0] <= product[0][0];
+    outer_q[1] <= product[0][1] + product[1][0];
+    outer_q[2] <= product[0][2] + product[2][0];
+    outer_q[3] <= product[1][2] + product[2][1];
+    outer_q[4] <= product[2][2];
+    lower_q[0] <= c[0];
+    lower_q[1] <= c[0] + c[1];
+    lower_q[2] <= c[0] + c[2];
+    lower_q[3] <= c[1] + c[2];
+    lower_q[4] <= c[2];
+    middle_q   <= product[1][1] + c[1];
+
+    for (int unsigned k = 0; k < 5; k++) sum_q[k] <= outer_q[k] + lower_q[k];
+    middle_qq <= middle_q;
+
+    form_o[0] <= (sum_q[0] <<< 2) + (sum_q[0] <<< 1);
+    form_o[1] <= (sum_q[1] <<< 1) + sum_q[1];
+    form_o[2] <= sum_q[2] + (middle_qq <<< 2);
+    form_o[3] <= (sum_q[3] <<< 1) + sum_q[3];
+    form_o[4] <= (sum_q[4] <<< 2) + (sum_q[4] <<< 1);
   end
 
 endmodule

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // U step units in a ring. Items circulate until they have a hit or no cell is left; no unit ever stalls.
 //
-// The ring turns one place a clock and holds Slots items. An item keeps its slot, so a counter that turns with the
-// ring is the slot's number at the wrap, and addresses the memory of first segments without any free list. At the
-// wrap an item that is done hands over its record and leaves, an item to be restarted gets its first segment back, and
-// an empty slot takes a new ray. A record that cannot be handed over goes round once more. So U = K is
-// the full pipeline, a ray a clock, and U = 1 one step unit shared by all rays in flight.
+// The ring turns one place a clock and holds Slots items. An item keeps its slot, whose number is that of a counter at the
+// wrap: it addresses the memory of first segments. At the wrap an item that is done hands over its record and leaves, one to
+// be restarted gets its first segment back, and an empty slot takes a new ray. A record that cannot be handed over goes round
+// once more. So U = K is the full pipeline, a ray a clock, and U = 1 one step unit shared by all rays in flight.
 //
 // Formats    ray_i: rdx_pkg::ray_t; segment_i: first ends and control points; hit_o: rdx_pkg::hit_t. A ray leaves one
 //            record for each root, in order of t, and one without a hit where it ends without a further root; the last
@@ -31,17 +30,18 @@ module rdx_ring #(
     parameter bit General = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire rdx_pkg::form_t       form_i,
-    input  wire logic                 ray_valid_i,
-    output logic                      ray_ready_o,
-    input  wire rdx_pkg::ray_t        ray_i,
-    input  wire segment_t             segment_i,
-    output logic                      hit_valid_o,
-    input  wire logic                 hit_ready_i,
-    output rdx_pkg::hit_t             hit_o,
-    output logic                [5:0] steps_o       // items that take a step, a clock ago
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire rdx_pkg::form_t        form_i,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire logic                  ray_valid_i,
+    output logic                       ray_ready_o,
+    input  wire rdx_pkg::ray_t         ray_i,
+    input  wire segment_t              segment_i,
+    output logic                       hit_valid_o,
+    input  wire logic                  hit_ready_i,
+    output rdx_pkg::hit_t              hit_o,
+    output logic                 [5:0] steps_o       // items that take a step, a clock ago
 );
   import rdx_pkg::*;
 
@@ -51,7 +51,6 @@ module rdx_ring #(
   localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
   localparam int unsigned Slots = (U * Latency + 2 + Phases - 1) / Phases;  // that can hold an item
   localparam int unsigned Pad = Slots * Phases - 2 - U * Latency;  // so that the ring holds a whole number of them
-
   if (U < 1 || U > K) begin : gen_illegal_u
     $fatal(1, "rdx_ring: U = %0d; allowed: 1 to K = %0d", U, K);
   end
@@ -59,8 +58,7 @@ module rdx_ring #(
   // ---- step units ----
   control_t enter_q, control[U+1];  // enter: the item at the first unit
   segment_t enter_segment_q, segment[U+1];
-  assign control[0] = enter_q;
-  assign segment[0] = enter_segment_q;
+  assign {control[0], segment[0]} = {enter_q, enter_segment_q};
   logic [  3:0] phase;  // of the place at the first unit
   logic [U-1:0] runs;
   always_ff @(posedge clk_i) steps_o <= 6'($countones(runs));
@@ -80,6 +78,7 @@ module rdx_ring #(
         .rst_ni,
         .phase_i  (phase_before(phase, u * Latency, Phases)),
         .form_i,
+        .modes_i,
         .control_i(control[u]),
         .segment_i(segment[u]),
         .control_o(control[u+1]),
@@ -112,7 +111,6 @@ module rdx_ring #(
       .phase_o (phase),
       .filled_o(filled)
   );
-  always_ff @(posedge clk_i) again_q <= first.segment;
 
   // ---- leaving: hand over the record ----
   control_t back, leave_d, leave_q;
@@ -120,7 +118,7 @@ module rdx_ring #(
   hit_t record;
   localparam type item_t = logic [$bits(control_t)+$bits(segment_t)-1:0];
   item_t last[1], padded[1];
-  logic give, given, more_roots;
+  logic given;
   assign last[0] = {control[U], segment[U]};
   rdx_delay #(
       .T(item_t),
@@ -131,8 +129,9 @@ module rdx_ring #(
       .data_o(padded)
   );
   assign {back, back_segment} = padded[0];
-  assign more_roots = back.roots > 1 && back.pending && !(&back.steps);
-  assign give = filled && (back.status == Hit || back.status == Done);
+  wire more_roots = back.roots > 1 && back.pending && !(&back.steps);
+  wire linger = !modes_i.early && back.status == Done && back.level < 5'(K - 1);
+  wire give = filled && (back.status == Hit || (back.status == Done && !linger));
   assign record = '{
           surface: first.surface,
           x: first.x,
@@ -157,7 +156,6 @@ module rdx_ring #(
       .ready_i(hit_ready_i),
       .data_o (hit_o)
   );
-
   always_comb begin
     leave_d = back;
     if (!filled) begin
@@ -166,10 +164,12 @@ module rdx_ring #(
       leave_d.status = record.last ? Idle : Again;
       leave_d.roots  = back.roots - 1'b1;
     end
+    if (linger) leave_d.level = 32'(back.level) + U < K ? back.level + 5'(U) : 5'(K - 1);
   end
   always_ff @(posedge clk_i) begin
     leave_q <= leave_d;
     leave_segment_q <= back_segment;
+    again_q <= first.segment;
   end
 
   // ---- entering: a new ray in an empty slot, a restart from the first segment ----
@@ -179,20 +179,16 @@ module rdx_ring #(
     enter_segment_q <= leave_segment_q;
     if (take) begin
       enter_q <= '0;
-      enter_q.status <= Run;
-      enter_q.paper <= ray_i.paper;
-      enter_q.roots <= ray_i.roots;
-      enter_q.box <= ray_i.box;
+      {enter_q.paper, enter_q.roots, enter_q.box} <= {ray_i.paper, ray_i.roots, ray_i.box};
       enter_segment_q <= segment_i;
     end else if (leave_q.status == Again) begin
-      enter_q.status <= Run;
-      enter_q.level <= '0;
       enter_q.t <= '0;
       enter_q.t_min <= leave_q.t_next;
       enter_q.follow <= 1'b1;
       enter_q.pending <= 1'b0;
       enter_segment_q <= again_q;
     end
+    if (take || leave_q.status == Again) {enter_q.status, enter_q.level} <= {Run, modes_i.first_level};
   end
 
   `RDX_STREAM(a_hit, hit_valid_o, hit_ready_i, hit_o)

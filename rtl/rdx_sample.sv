@@ -24,18 +24,19 @@ module rdx_sample #(
     localparam type control_t = `RDX_CONTROL_T(N1 * K),
     localparam type segment_t = `RDX_SEGMENT_T(rdx_pkg::VectorWidth, 1)
 ) (
-    input  wire logic                    clk_i,
-    input  wire logic                    rst_ni,
-    input  wire logic           [   3:0] phase_i,
-    input  wire rdx_pkg::form_t          form_i,
-    input  wire control_t                control_i,
-    input  wire segment_t                segment_i,
-    input  wire logic           [N1-1:0] pick_i,
-    output control_t                     control_o,
-    output rdx_pkg::vector_t             cells_o   [J+1],
-    output logic                [ J-1:0] outside_o,
-    output logic                [ J-1:0] possible_o,
-    output segment_t                     cell_o
+    input  wire logic                     clk_i,
+    input  wire logic                     rst_ni,
+    input  wire logic            [   3:0] phase_i,
+    input  wire rdx_pkg::form_t           form_i,
+    input  wire rdx_pkg::modes_t          modes_i,
+    input  wire control_t                 control_i,
+    input  wire segment_t                 segment_i,
+    input  wire logic            [N1-1:0] pick_i,
+    output control_t                      control_o,
+    output rdx_pkg::vector_t              cells_o   [J+1],
+    output logic                 [ J-1:0] outside_o,
+    output logic                 [ J-1:0] possible_o,
+    output segment_t                      cell_o
 );
   import rdx_pkg::*;
 
@@ -142,7 +143,7 @@ module rdx_sample #(
   `define RDX_WAIT(NAME, WIDTH, DEPTH, IN, OUT) \
     rdx_line #(.W(WIDTH), .Depth(DEPTH)) NAME (.clk_i, .rst_ni, .en_i(1'b1), .data_i(IN), .data_o(OUT));
   ends_t ends_here;
-  `RDX_WAIT(u_wait_level, 5, Halving + Evaluation - 3, control_i.level, level_here)
+  `RDX_WAIT(u_wait_level, 5, Halving + Evaluation - 3, control_i.level - modes_i.first_level, level_here)
   `RDX_WAIT(u_wait_zone, $clog2(Zones), Evaluation - 4, zone_q, zone_here)
   `RDX_WAIT(u_wait_values, 2 * VectorWidth, Halving + Evaluation, segment_i.b, {stop, start})
   `RDX_WAIT(u_wait_outside, J, Evaluation + BoundLatency - 1, outside_q, outside_o)
@@ -170,6 +171,8 @@ module rdx_sample #(
       .data_o(chosen_q)
   );
   assign cell_o.b = {chosen_q[1], chosen_q[0]};
+
+  wire unused_modes = &{1'b0, modes_i};
 
 endmodule
 

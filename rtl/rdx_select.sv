@@ -37,28 +37,38 @@ module rdx_select #(
     $fatal(1, "rdx_select: Rules = %0d; allowed: 1 certified, 2 paper, 3 both", Rules);
   end
 
-  // Sign logic on the control points
+  // First clock: signs of the control points
   logic [J*D:0] positive;
+  logic [J-1:0] excluded, possible;
+  logic last, paper;
+  always_ff @(posedge clk_i) begin
+    for (int unsigned i = 0; i <= J * D; i++) positive[i] <= cells_i[i] > 0;
+    excluded <= excluded_i;
+    possible <= possible_i;
+    last <= last_i;
+    paper <= paper_i;
+  end
+
+  // Second clock: masks
   logic [J-1:0] mixed;
   logic [J-1:0] changes;
   always_comb begin
-    for (int unsigned i = 0; i <= J * D; i++) positive[i] = cells_i[i] > 0;
     for (int unsigned j = 0; j < J; j++) begin
       mixed[j]   = (|positive[j*D+:D+1]) & ~(&positive[j*D+:D+1]);
       changes[j] = positive[j*D] ^ positive[(j+1)*D];
     end
   end
 
-  wire  [J-1:0] certified = (last_i ? changes : mixed | possible_i) & ~excluded_i;
-  wire  [J-1:0] crossed = changes & ~excluded_i;
-  logic [J-1:0] mask;
+  wire [J-1:0] certified = (last ? changes : mixed | possible) & ~excluded;
+  wire [J-1:0] crossed = changes & ~excluded;
+  logic [J-1:0] mask_d, mask;
 
   if (!HasPaper) begin : gen_certified
-    wire unused = &{1'b0, paper_i, crossed};
-    assign mask = certified;
+    wire unused = &{1'b0, paper, crossed};
+    assign mask_d = certified;
   end else begin : gen_paper
     // The guess takes its time; the masks wait for it.
-    localparam int unsigned Wait = rdx_pkg::select_latency(N1, Rules) - 1;
+    localparam int unsigned Wait = rdx_pkg::select_latency(N1, Rules) - 3;
     logic [N1-1:0] guess;
     logic signed [W-1:0] boundaries[J+1];
     for (genvar j = 0; j <= J; j++) begin : gen_boundary
@@ -78,7 +88,7 @@ module rdx_select #(
       logic [J-1:0] mask;     // otherwise
     } choice_t;
     choice_t choice_d[1], choice_q[1];
-    wire by_paper = paper_i || !HasCertified;
+    wire by_paper = paper || !HasCertified;
     assign choice_d[0] = '{guessed: by_paper && changes == '0, mask: by_paper ? crossed : certified};
     rdx_delay #(
         .T(choice_t),
@@ -88,10 +98,12 @@ module rdx_select #(
         .data_i(choice_d),
         .data_o(choice_q)
     );
-    assign mask = choice_q[0].guessed ? J'(1) << guess : choice_q[0].mask;
+    assign mask_d = choice_q[0].guessed ? J'(1) << guess : choice_q[0].mask;
   end
 
-  // The first two candidates
+  always_ff @(posedge clk_i) mask <= mask_d;
+
+  // Last clock: the first two candidates
   logic found_d, more_d;
   logic [N1-1:0] pick_d, next_d;
   always_comb begin

@@ -6,7 +6,7 @@
 //
 // Formats    as in rdx_step; dead_i: no cell was found.
 // Rounding   half up in the middle; the scaling is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
-// Timing     latency rdx_pkg::NormalizeLatency = 2 clocks, one item a clock; no reset, no stall.
+// Timing     latency rdx_pkg::SettleLatency = 3 clocks, one item a clock; no reset, no stall.
 // Model      model/raydix/settle.py, and the verdict in model/raydix/step.py
 `default_nettype none
 `include "rdx_types.svh"
@@ -35,10 +35,11 @@ module rdx_settle #(
   always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
   if (D > 1) begin : gen_scale
     rdx_normalize #(
-        .WIn  (W),
-        .WOut (W),
+        .WIn(W),
+        .WOut(W),
         .Count(D + 1),
-        .Limit(norm_limit(N1))
+        .Limit(norm_limit(N1)),
+        .Stages(SettleLatency)
     ) u_normalize (
         .clk_i,
         .en_i(1'b1),
@@ -49,7 +50,7 @@ module rdx_settle #(
     rdx_delay #(
         .T(logic signed [W-1:0]),
         .Count(D + 1),
-        .Depth(NormalizeLatency)
+        .Depth(SettleLatency)
     ) u_wait (
         .clk_i,
         .data_i(b),
@@ -95,19 +96,18 @@ module rdx_settle #(
   wire run = control_i.status == Run;
   wire last = run && !dead_i && control_i.level == 5'(K - 1);
   control_t control_q;
-  ends_t ends_q, ends_qq;
+  ends_t ends_q;
   logic dead_q, last_q, changes_q, positive_q;
   always_ff @(posedge clk_i) begin
     control_q <= control_i;
     ends_q    <= last ? middle : segment_i.ends;
-    ends_qq   <= ends_q;
     dead_q    <= dead_i;
     last_q    <= last;
     changes_q <= (b[0] > 0) != (b[D] > 0);
     positive_q <= b[0] > 0;
   end
 
-  // ---- second clock: the verdict ----
+  // ---- second clock: whether the point is outside ----
   coord_t point[3][2];
   logic point_outside;
   always_comb for (int unsigned axis = 0; axis < 3; axis++) point[axis] = '{default: ends_q.start[axis]};
@@ -122,22 +122,39 @@ module rdx_settle #(
       .outside_o(point_outside)
   );
 
+  control_t control_qq;
+  ends_t ends_qq, ends_qqq;
+  logic dead_qq, last_qq, hit_q, positive_qq, spent_q;
+  always_ff @(posedge clk_i) begin
+    control_qq <= control_q;
+    ends_qq <= ends_q;
+    dead_qq <= dead_q;
+    last_qq <= last_q;
+    hit_q <= last_q && changes_q && !point_outside;
+    positive_qq <= positive_q;
+    spent_q <= &control_q.steps;
+  end
+
+  // ---- third clock: the verdict ----
   control_t control_d;
   always_comb begin
-    control_d = control_q;
-    if (control_q.status == Run) begin
-      if (!dead_q && !last_q) control_d.level = control_q.level + 1'b1;
-      if (last_q && changes_q && !point_outside) begin
+    control_d = control_qq;
+    if (control_d.status == Run) begin
+      if (!dead_qq && !last_qq) control_d.level = control_qq.level + 1'b1;
+      if (hit_q) begin
         control_d.status = Hit;
-        control_d.enters = positive_q;
-      end else if (last_q || dead_q) control_d.status = control_q.pending ? Again : Done;
-      if (control_d.status != Hit && (&control_q.steps)) control_d.status = Done;
+        control_d.enters = positive_qq;
+      end else if (spent_q) control_d.status = Done;
+      else if (last_qq || dead_qq) control_d.status = control_qq.pending ? Again : Done;
     end
   end
-  always_ff @(posedge clk_i) control_o <= control_d;
+  always_ff @(posedge clk_i) begin
+    control_o <= control_d;
+    ends_qqq  <= ends_qq;
+  end
 
   always_comb begin
-    segment_o.ends = ends_qq;
+    segment_o.ends = ends_qqq;
     for (int unsigned i = 0; i <= D; i++) segment_o.b[i] = scaled[i];
   end
 

@@ -8,7 +8,7 @@
 // Rounding   half up in each average; normalising is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
 // Timing     latency rdx_pkg::step_latency clocks, one item a clock; no stall.
 //            D = 1: one item every ceil((J-1)/Lanes) clocks, where phase_i = 0
-//            Without reset but for D = 1, whose waiting lines have places: the status of an item comes from the ring.
+// Reset      of waiting lines' places only: the status of an item comes from the ring.
 // Error      docs/method.md, "Rounding"; D = 1: docs/spirals.md, "Error of the evaluator"
 // Model      model/raydix/step.py
 `default_nettype none
@@ -27,28 +27,29 @@ module rdx_step #(
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic           [3:0] phase_i,
-    input  wire rdx_pkg::form_t       form_i,
-    input  wire control_t             control_i,
-    input  wire segment_t             segment_i,
-    output control_t                  control_o,
-    output segment_t                  segment_o
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic            [3:0] phase_i,
+    input  wire rdx_pkg::form_t        form_i,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire control_t              control_i,
+    input  wire segment_t              segment_i,
+    output control_t                   control_o,
+    output segment_t                   segment_o
 );
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
 
   localparam int unsigned J = 1 << N1;
+  localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes);
   localparam int unsigned SelectLatency = select_latency(N1, Rules);
-
+  localparam int unsigned PickLatency = pick_latency(N1, D);
   if (K < 1 || N > 32) begin : gen_illegal_k
     $fatal(1, "rdx_step: K = %0d; allowed: 1 to %0d (N1*K is at most 32)", K, 32 / N1);
   end
   if (W < 16 || W > 48) begin : gen_illegal_w
     $fatal(1, "rdx_step: W = %0d; allowed: 16 to 48", W);
   end
-
   if (D == 1 && (W != VectorWidth || HalveStages != 1)) begin : gen_illegal_d
     $fatal(1, "rdx_step: D = 1 with W = %0d, HalveStages = %0d; allowed: %0d, 1", W, HalveStages, VectorWidth);
   end
@@ -58,27 +59,43 @@ module rdx_step #(
   logic [J-1:0] outside, possible;
   logic [N1-1:0] pick, next;
   segment_t cell_q;
-  control_t split[1], chosen[1];  // when the cells are there, and when the choice is
+  // the digits of t_min at a level, 0 unless they are followed
+  function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
+    first_cell = '0;
+    for (int unsigned k = 0; k < K; k++) if (follow && level == 5'(k)) first_cell = t_min[N1*(K-1-k)+:N1];
+  endfunction
+  `define RDX_SEARCH(CONTROL) \
+    {CONTROL.level == 5'(K - 1), CONTROL.paper, first_cell(CONTROL.level, CONTROL.t_min, CONTROL.follow)}
+  `define RDX_LATE(NAME, TYPE, DEPTH, IN, OUT) \
+    rdx_delay #(.T(TYPE), .Depth(DEPTH)) NAME (.clk_i, .data_i(IN), .data_o(OUT));
+  localparam type search_t = logic [N1+1:0];
+  search_t search[1];  // what the choice needs of the control part, when the cells are there
+  logic last, paper;
+  logic [N1-1:0] first;
+  assign {last, paper, first} = search[0];
+  control_t waits;  // what enters the line of the control part
   if (D > 1) begin : gen_split
     rdx_split #(
         .N1(N1),
-        .K(K),
         .W(W),
         .D(D),
         .HalveStages(HalveStages),
         .Wait(SelectLatency)
     ) u_split (
         .clk_i,
-        .control_i,
+        .rst_ni,
+        .box_i(control_i.box),
         .segment_i,
         .pick_i(pick),
-        .control_o(split[0]),
         .cells_o(cells),
         .outside_o(outside),
         .cell_o(cell_q)
     );
+    search_t entering[1];
+    assign entering[0] = `RDX_SEARCH(control_i);
+    `RDX_LATE(u_search, search_t, CellsLatency, entering, search)
+    assign waits = control_i;
     assign possible = '0;
-    wire unused = &{1'b0, rst_ni, phase_i};
   end else begin : gen_sample
     rdx_sample #(
         .N1(N1),
@@ -91,44 +108,19 @@ module rdx_step #(
         .rst_ni,
         .phase_i,
         .form_i,
+        .modes_i,
         .control_i,
         .segment_i,
         .pick_i(pick),
-        .control_o(split[0]),
+        .control_o(waits),
         .cells_o(cells),
         .outside_o(outside),
         .possible_o(possible),
         .cell_o(cell_q)
     );
+    assign search[0] = `RDX_SEARCH(waits);
   end
-  rdx_delay #(
-      .T(control_t),
-      .Depth(SelectLatency)
-  ) u_chosen (
-      .clk_i,
-      .data_i(split),
-      .data_o(chosen)
-  );
-
   // ---- choice: cells before t_min and cells outside of the box are passed over ----
-  // the digits of t_min at a level, 0 unless they are followed
-  function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
-    logic [N1-1:0] digit;
-    digit = '0;
-    for (int unsigned k = 0; k < K; k++) if (level == 5'(k)) digit = t_min[N1*(K-1-k)+:N1];
-    return follow ? digit : '0;
-  endfunction
-
-  logic [N1-1:0] first[1], chosen_first[1];
-  assign first[0] = first_cell(split[0].level, split[0].t_min, split[0].follow);
-  rdx_delay #(
-      .T(logic [N1-1:0]),
-      .Depth(SelectLatency)
-  ) u_first (
-      .clk_i,
-      .data_i(first),
-      .data_o(chosen_first)
-  );
   logic found, more;
   rdx_select #(
       .W(W),
@@ -138,10 +130,10 @@ module rdx_step #(
   ) u_select (
       .clk_i,
       .cells_i(cells),
-      .excluded_i(outside | ~({J{1'b1}} << first[0])),
+      .excluded_i((modes_i.boxes ? outside : '0) | ~({J{1'b1}} << first)),
       .possible_i(possible),
-      .last_i(split[0].level == 5'(K - 1)),
-      .paper_i(split[0].paper),
+      .last_i(last),
+      .paper_i(paper),
       .found_o(found),
       .more_o(more),
       .pick_o(pick),
@@ -149,33 +141,41 @@ module rdx_step #(
   );
 
   // ---- pick: the chosen cell becomes the item's, its number the next digits of t ----
-  typedef struct packed {
-    logic     dead;     // no cell was found
-    control_t control;
-  } picked_t;
-  control_t picked_d;
-  picked_t picked[1], picked_q[1];
-  assign picked[0] = '{dead: !found, control: picked_d};
+  localparam type choice_t = logic [2*N1+1:0];
+  choice_t choice[1], choice_q[1];
+  logic was_found, was_more;
+  logic [N1-1:0] was_pick, was_next;
+  assign choice[0] = {found, more, pick, next};
+  assign {was_found, was_more, was_pick, was_next} = choice_q[0];
+  `RDX_LATE(u_choice, choice_t, PickLatency - 1, choice, choice_q)
+  control_t chosen, picked_d, picked_q;
+  rdx_line #(
+      .W($bits(control_t)),
+      .Depth((D > 1 ? CellsLatency : 0) + SelectLatency + PickLatency - 1)
+  ) u_control (
+      .clk_i,
+      .rst_ni,
+      .en_i  (1'b1),
+      .data_i(waits),
+      .data_o(chosen)
+  );
   rdx_pick #(
       .N1(N1),
       .K (K)
   ) u_pick (
-      .control_i(chosen[0]),
-      .first_i  (chosen_first[0]),
-      .found_i  (found),
-      .more_i   (more),
-      .pick_i   (pick),
-      .next_i   (next),
+      .control_i(chosen),
+      .first_i  (first_cell(chosen.level, chosen.t_min, chosen.follow)),
+      .found_i  (was_found),
+      .more_i   (was_more),
+      .pick_i   (was_pick),
+      .next_i   (was_next),
       .control_o(picked_d)
   );
-  rdx_delay #(
-      .T(picked_t),
-      .Depth(pick_latency(N1, D))
-  ) u_picked (
-      .clk_i,
-      .data_i(picked),
-      .data_o(picked_q)
-  );
+  logic dead_q;
+  always_ff @(posedge clk_i) begin
+    picked_q <= picked_d;
+    dead_q   <= !was_found;
+  end
 
   rdx_settle #(
       .N1(N1),
@@ -184,15 +184,15 @@ module rdx_step #(
       .D (D)
   ) u_settle (
       .clk_i,
-      .control_i(picked_q[0].control),
+      .control_i(picked_q),
       .segment_i(cell_q),
-      .dead_i(picked_q[0].dead),
+      .dead_i(dead_q),
       .low_i(form_i.low),
       .high_i(form_i.high),
       .control_o,
       .segment_o
   );
-  wire unused_form = &{1'b0, form_i};
+  wire unused = &{1'b0, modes_i, phase_i, form_i};
 
 endmodule
 

@@ -16,18 +16,19 @@ module rdx_vector #(
     parameter int unsigned Lanes = 7,
     parameter bit General = 1'b0
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire rdx_pkg::form_t       form_i,
-    input  wire logic                 ray_valid_i,
-    output logic                      ray_ready_o,
-    input  wire rdx_pkg::ray_t        ray_i,
-    input  wire rdx_pkg::ends_t       ends_i,
-    output logic                      idle_o,
-    output logic                      hit_valid_o,
-    input  wire logic                 hit_ready_i,
-    output rdx_pkg::hit_t             hit_o,
-    output logic                [5:0] steps_o
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire rdx_pkg::form_t        form_i,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire logic                  ray_valid_i,
+    output logic                       ray_ready_o,
+    input  wire rdx_pkg::ray_t         ray_i,
+    input  wire rdx_pkg::ends_t        ends_i,
+    output logic                       idle_o,
+    output logic                       hit_valid_o,
+    input  wire logic                  hit_ready_i,
+    output rdx_pkg::hit_t              hit_o,
+    output logic                 [5:0] steps_o
 );
   import rdx_pkg::*;
 
@@ -66,6 +67,7 @@ module rdx_vector #(
       .clk_i,
       .rst_ni,
       .form_i,
+      .modes_i,
       .ray_valid_i(ray_valid),
       .ray_ready_o(ray_ready),
       .ray_i(ray),

@@ -18,7 +18,7 @@ class Proof:
     replace: tuple[tuple[str, str, str], ...] = ()  # changes that make the design smaller
     stages: int = 1  # of lemmas: the parameter Stage of the harness counts them
     depth: int = 20  # clocks in which covers are reached
-    limit: int = 120  # seconds that one run of ABC may take
+    limit: int = 600  # seconds that one run of ABC may take
 
 
 def halve(w, d):
@@ -33,13 +33,13 @@ def halve(w, d):
 
 def select(w, d, n1, rules):
     """rdx_select against its specification."""
-    clocks = 1 if rules == 1 else 2 + (n1 + 2) // 2
+    clocks = 3 if rules == 1 else 3 + (n1 + 2) // 2
     broken = [("rdx_select", "& ~(&positive[j*D+:D+1])", "& ~(&positive[j*D+:D])")] if rules != 2 and d > 1 else []
     if rules != 1:
         broken += [("rdx_guess", ".size[2*i+1] < gen_level", ".size[2*i+1] <= gen_level")]
         broken += [("rdx_guess", "right_second <= left_second", "right_second < left_second")]
     else:
-        broken += [("rdx_select", "(last_i ? changes", "(!last_i ? changes")]
+        broken += [("rdx_select", "(last ? changes", "(!last ? changes")]
     says = "first and second candidate are those of the rule in force, for all inputs"
     values = {"W": w, "D": d, "N1": n1, "Rules": rules}
     return Proof("formal_select", "rdx_select", says, values, f"induction {clocks + 2}", tuple(broken))
@@ -48,8 +48,8 @@ def select(w, d, n1, rules):
 def normalize(w_in, w_out, count, limit):
     """rdx_normalize of some widths."""
     broken = (
-        ("rdx_normalize", "shift_d = Bits'(Limit - 1 - s);", "shift_d = Bits'(Limit - s);"),
-        ("rdx_normalize", "shift_d = Bits'(Limit);", "shift_d = Bits'(Limit - 1);"),
+        ("rdx_normalize", "shift_d = Fine'(Places - 1 - s);", "shift_d = Fine'(Places - s);"),
+        ("rdx_normalize", "shift_d = Fine'(Places);", "shift_d = Fine'(Places - 1);"),
     )
     says = "one shift for all, the largest that fits; signs stay; floor to the output"
     values = {"WIn": w_in, "WOut": w_out, "Count": count, "Limit": limit}
@@ -64,15 +64,15 @@ def outside(faces, change):
     return Proof("formal_outside", "rdx_outside", says, {"J": 8, "Faces": faces}, broken=broken)
 
 
-def fdiff(w, quadratic, places):
-    """rdx_fdiff of some width over 2^places columns and rows."""
+def fdiff(w, quadratic, places, sums=0):
+    """rdx_fdiff of some width over 2^places columns and rows, against the polynomial or the sums of its differences."""
     broken = (
         ("rdx_fdiff", "row_rise_q + dyy", "row_rise_q - dyy" if quadratic else "row_rise_q + 1"),
         ("rdx_fdiff", "{slope_q, row_slope_q} <= {next_row_slope, next_row_slope};", "slope_q <= next_row_slope + 1;"),
     )
-    says = "the value is the polynomial of column and row"
-    values = {"W": w, "Quadratic": quadratic, "Places": places}
-    return Proof("formal_fdiff", "rdx_fdiff", says, values, "induction 2", broken)
+    says = "the value is the polynomial of column and row" + (", as the sum of its differences" if sums else "")
+    values = {"W": w, "Quadratic": quadratic, "Places": places, "Sums": sums}
+    return Proof("formal_fdiff", "rdx_fdiff", says, values, "induction 2", broken, stages=4)
 
 
 def slots(slots, phases):
@@ -108,7 +108,7 @@ def ring(parameters, always, **rest):
             ),
         )
     values = parameters | {"Always": always}
-    short = ("rdx_pkg", "int unsigned StepsWidth = 12;", "int unsigned StepsWidth = 2;")
+    short = ("rdx_pkg", "int unsigned StepsWidth = 16;", "int unsigned StepsWidth = 2;")
     return Proof(
         "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short,), stages=3, depth=45, **rest
     )
@@ -135,6 +135,8 @@ THROUGH = (
     "  logic held_q;\n  assign valid_o = held_q && ready_i;\n"
     "  always_ff @(posedge clk_i) begin\n    if (!rst_ni) held_q <= 1'b0;\n    else if (ready_o) held_q <= valid_i;\n",
 )
+QUEUE = ("rdx_fifo", "wire  advance = !valid_o || ready_i;", "wire  advance = 1'b1;")
+THROUGH_QUEUE = ("rdx_product", "rays_valid && points_valid;", "rays_valid && points_valid && ray_ready_i;")
 THROUGH_MERGE = ("rdx_merge", "valid_o = |valid_i;", "valid_o = |(valid_i & ready_o);")
 CORE = SMALL | {"Vecsum": 2, "Lanes": 1}
 VECTOR = {"N1": 1, "K": 2, "Rules": 1, "Lanes": 1}
@@ -185,7 +187,8 @@ PROOFS = {
     ),
     "outside": outside(0, ("& face_bits);", "& (face_bits >> 1));")),
     "outside-faces": outside(1, ("boundaries_i[axis][j] > high_i[axis]", "boundaries_i[axis][j] >= high_i[axis]")),
-    "fdiff": fdiff(64, 1, 2),
+    "fdiff": fdiff(64, 1, 2, 1),
+    "fdiff-closed": fdiff(8, 1, 2),
     "fdiff-linear": fdiff(48, 0, 2),
     "bound": Proof(
         "formal_bound",
@@ -207,7 +210,7 @@ PROOFS = {
     "paths-algebraic": paths("rdx_algebraic", SMALL, THROUGH, stand_ins=("rdx_step",)),
     "paths-vector": paths("rdx_vector", VECTOR, THROUGH, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,)),
     "paths-ring": paths("rdx_ring", SMALL, THROUGH, stand_ins=("rdx_step",)),
-    "paths-product": paths("rdx_product", {"D": 2}, through("rdx_product")),
+    "paths-product": paths("rdx_product", {"D": 2}, THROUGH_QUEUE),
     "paths-raster": paths(
         "rdx_raster", {"D": 2, "Vector": 1}, ("rdx_raster", "state_q == Walk;", "state_q == Walk && ray_ready_i;")
     ),
@@ -217,8 +220,8 @@ PROOFS = {
     "stream-register": stream(
         "rdx_register", {"W": 32}, ("rdx_register", "if (ready_o && valid_i) data_o", "if (valid_i) data_o")
     ),
-    "stream-product": stream("rdx_product", {"D": 2}, held("rdx_product")),
-    "stream-product-d4": stream("rdx_product", {"D": 4}, held("rdx_product"), stand_ins=("rdx_quartic",)),
+    "stream-product": stream("rdx_product", {"D": 2}, QUEUE),
+    "stream-product-d4": stream("rdx_product", {"D": 4}, QUEUE, stand_ins=("rdx_quartic",)),
     "stream-raster": stream("rdx_raster", {"D": 2, "Vector": 1}, WALK, depth=50),
     "stream-raster-d4": stream("rdx_raster", {"D": 4, "Vector": 1}, WALK, depth=50),
     "stream-ends": stream("rdx_ends", {"Lanes": 1}, held("rdx_ends"), stand_ins=("rdx_vecsum",), replace=(SHORT,)),

@@ -94,6 +94,20 @@ def module(name, args, progress, known):
     return row(name, everything, outcomes, equal), [m for m in left if m.number not in equal], wrong, wanted, outcomes
 
 
+def total(rows):
+    """The last row, of all modules."""
+    sums = [sum(int(cells[i]) for cells in rows if cells[i] != "–") for i in range(1, 8)]
+    killed = sum(sums[2:5])
+    return ["all", *map(str, sums), f"{killed / max(1, killed + sums[6]):.1%}"]
+
+
+def written():
+    """Rows of the table in the page, by module."""
+    block = PAGE.read_text().split("BEGIN generated: mutants -->")[1].split("<!-- END")[0]
+    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
+    return {row[0]: row for row in ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)}
+
+
 def describe(name, mutant):
     """Where a mutant is, what it changes, and how to run it alone."""
     return (
@@ -112,7 +126,7 @@ def main():
     parser.add_argument("--list", action="store_true", help="print the mutants, run nothing")
     parser.add_argument("--kept", action="store_true", help="run nothing, show what earlier runs have found")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="simulations at a time (default: the cores)")
-    parser.add_argument("--write", action="store_true", help="renew the table in docs/mutants.md")
+    parser.add_argument("--write", action="store_true", help="renew the rows of these modules in docs/mutants.md")
     args = parser.parse_args()
     names = work.names()
     names = sorted(names, key=lambda n: (SLOW.index(n) if n in SLOW else -1, work.source(n).stat().st_size))
@@ -122,9 +136,9 @@ def main():
         parser.error("--mutant needs exactly one module")
     if args.count < 1 or args.jobs < 1:
         parser.error("--count and --jobs: allowed: 1 and up")
-    if args.write and (args.modules or args.mutant or args.all):
-        parser.error("--write is for the run of all modules")
-    names = args.modules or names
+    if args.write and (args.mutant or args.all):
+        parser.error("--write is not for single mutants or all of them")
+    known_names, names = names, args.modules or names
     signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))  # ends the simulators, too
     console = Console(width=140, emoji=False)
     rows, bad, broken = [], 0, []
@@ -165,18 +179,16 @@ def main():
     table = Table(title="mutants")
     for name in HEADER:
         table.add_column(name, justify="left" if name == "module" else "right")
-    total = ["all", *(str(sum(int(r[i]) for r in rows if r[i] != "–")) for i in range(1, 8))]
-    killed = sum(int(t) for t in total[3:6])
-    total.append(f"{killed / max(1, killed + int(total[7])):.1%}")
-    rows = sorted(rows) + [total]
-    for cells in rows:
+    for cells in sorted(rows) + [total(rows)]:
         table.add_row(*cells)
     console.print(table)
     if broken:
         print(f"mutants: not run: {' '.join(broken)}", file=sys.stderr)
         return 2
     if args.write:
-        write_table(PAGE, "mutants", HEADER, rows)
+        kept = {name: cells for name, cells in written().items() if name in known_names}
+        rows = sorted((kept | {cells[0]: cells for cells in rows}).values())
+        write_table(PAGE, "mutants", HEADER, rows + [total(rows)])
     return 1 if bad else 0
 
 

@@ -61,6 +61,8 @@ POINTS = {
     "step-d2": Point("rdx_step", {"N1": 3, "K": 8, "W": 36, "D": 2, "Rules": 1}),
     "step-n1": Point("rdx_step", {"N1": 1, "K": 24, "W": 36, "D": 4, "Rules": 1}),
     "product": Point("rdx_product", {"W": 36, "D": 4}),
+    "algebraic": Point("rdx_algebraic", {"N1": 3, "K": 8, "W": 36, "D": 4, "U": 1, "Rules": 1}, slow=True),
+    "algebraic-d2": Point("rdx_algebraic", {"N1": 3, "K": 8, "W": 36, "D": 2, "U": 1, "Rules": 1}, slow=True),
     "cordic": Point("rdx_cordic", {"W": 38, "Iterations": 28, "Angle": 1}),
     "cordic-length": Point("rdx_cordic", {"W": 38, "Iterations": 16, "Angle": 0}),
     "vecsum": Point("rdx_vecsum", {"General": 0}),

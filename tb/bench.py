@@ -322,6 +322,8 @@ async def start(dut):
     Clock(dut.clk_i, 10, unit="ns").start(start_high=False)
     if hasattr(dut, "en_i"):
         dut.en_i.value = 1
+    if hasattr(dut, "modes_i"):  # all digits, boxes and early leaving on: rdx_pkg::ModesDefault
+        dut.modes_i.value = 3
     if hasattr(dut, "rst_ni"):
         dut.rst_ni.value = 0
         for _ in range(4):

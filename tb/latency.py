@@ -4,9 +4,10 @@
 from raydix.formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS, SWIRL_ITERATIONS
 
 CERTIFIED = 1  # the mask of rules with which the paper rule is not built
-NORMALIZE = 2
 TURN = 6
 TUBE = LENGTH_ITERATIONS + 6
+QUARTIC = 7
+SETTLE = 3
 VECSUM = ANGLE_ITERATIONS + 1 + TURN + TUBE + 6
 BOUND = 2
 CONSTANT = 2
@@ -19,9 +20,14 @@ def phases(points, lanes):
     return -(-points // lanes)
 
 
+def product(degree):
+    """Of rdx_product, an empty one."""
+    return (QUARTIC if degree == 4 else 0) + 4 + 3
+
+
 def select(n1, rules):
     """Of rdx_select."""
-    return 1 if rules == CERTIFIED else 2 + (n1 + 2) // 2
+    return 3 if rules == CERTIFIED else 3 + (n1 + 2) // 2
 
 
 def cells(n1, degree, halve_stages, lanes):
@@ -33,9 +39,9 @@ def cells(n1, degree, halve_stages, lanes):
 
 def pick(n1, degree):
     """From the choice to the chosen cell."""
-    return 1 if degree > 1 else n1
+    return n1 * ((degree + 1) // 2)
 
 
 def step(n1, degree, halve_stages, lanes, rules):
     """Of rdx_step."""
-    return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree) + NORMALIZE
+    return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree) + SETTLE

@@ -274,14 +274,14 @@ def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     """One bit of one hit changed on its way from the RTL: exit status 1, and a red pixel."""
     from raydix import render
 
-    honest = render.trace_rtl
+    honest = render.run_frames
 
     def faulty(*args, **keywords):
-        hits = honest(*args, **keywords)
-        hits.surfaces[0].t[9, 9, 0] ^= 1
-        return hits
+        output = honest(*args, **keywords)
+        output.hits.surfaces[0].t[9, 9, 0] ^= 1
+        return output
 
-    monkeypatch.setattr(render, "trace_rtl", faulty)
+    monkeypatch.setattr(render, "run_frames", faulty)
     sphere = str(ROOT / "scenes" / "sphere.toml")
     options = ["--size", "24x18", "--units", "1", "--steps", "2", "--out", str(tmp_path)]
     assert main(["verify", sphere, *options]) == 1

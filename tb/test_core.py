@@ -16,6 +16,7 @@ from raydix.rtl import parameters
 CONFIG = Config(n1=2, steps=6, width=36, degree=4, units=2, rules="both", vecsum="general", lanes=2)
 NAMES = ("surface", "x", "y", "hit", "last", "t", "depth", "point", "enters", "steps")
 SIGNED = ("depth", "point")
+SILENCE = 4000  # clocks without a record; the longest of a frame that is not stuck are about 900
 
 
 def compiled_frame(scene, rule="certified"):
@@ -75,12 +76,15 @@ async def render(dut, random, frame, idle, stall):
     last = NAMES.index("last")
 
     async def finished():
-        quiet = 0
-        while quiet < 200:  # then nothing more may come
+        done, quiet = False, 0
+        while not done or quiet < 200:  # then nothing more may come
             before = len(sink.received)
             await FallingEdge(dut.clk_i)
-            done = sum(words[last] for words in sink.received) >= rays
-            quiet = quiet + 1 if done and len(sink.received) == before else 0
+            ended = sum(words[last] for words in sink.received)
+            assert ended <= rays, f"{ended} rays have ended, {rays} were sent"
+            done = ended == rays
+            quiet = quiet + 1 if len(sink.received) == before else 0
+            assert quiet < SILENCE, f"no record for {quiet} clocks, {len(sink.received)} before"
 
     await with_timeout(cocotb.start_soon(finished()), 10 * (5000 + 100 * rays), "ns")
     task.cancel()

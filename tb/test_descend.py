@@ -1,12 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ends of a chosen cell: RTL equals the model, and the cell's ends are the boundaries that were evaluated."""
+"""The ends of a chosen cell: RTL equals the model; they are the boundaries evaluated, within N1/2 ulp of the line."""
+
+from fractions import Fraction
 
 import cocotb
 import pytest
 
 import bench
+from raydix.carry import descend
 from raydix.cells import subdivide
-from test_carry import model, random_ends
+from raydix.formats import COORD_WIDTH, DEPTH_WIDTH
+
+
+def model(start, stop, pick, n1):
+    """Ends of cell ``pick`` by the golden model."""
+    ends = [start, stop]
+    descend(ends, 0, 1, pick, n1)
+    return ends
+
+
+def random_ends(random):
+    """Random ends, corners among them; the depth is never negative."""
+
+    def coord():
+        return random.choice(
+            (bench.low(COORD_WIDTH), bench.high(COORD_WIDTH), 0, -1, random.getrandbits(32) - (1 << 31))
+        )
+
+    def depth():
+        return random.choice((0, bench.high(DEPTH_WIDTH), random.getrandbits(31)))
+
+    lines = [(coord(), coord()) for _ in range(3)]
+    start, stop = ([line[end] for line in lines] for end in range(2))
+    return {"start": start, "stop": stop, "depth_start": depth(), "depth_stop": depth()}
 
 
 def cell(ends, pick, n1):
@@ -44,6 +70,20 @@ async def ends_are_boundaries(dut):
             cells = [model(start, stop, pick, n1) for pick in range(1 << n1)]
             if cells != [boundaries[j : j + 2] for j in range(1 << n1)]:
                 raise bench.mismatch(number, {"start": start, "stop": stop}, [f"{cells}, boundaries {boundaries}"])
+
+
+@cocotb.test
+async def within_bound(dut):
+    """The ends of a cell lie within N1/2 ulp of the exact line, and neighbours share theirs."""
+    random, n1 = bench.rng("bound"), bench.parameter(dut, "N1")
+    for number in range(200):
+        a, b = random.getrandbits(32) - (1 << 31), random.getrandbits(32) - (1 << 31)
+        cells = [model(a, b, j, n1) for j in range(1 << n1)]
+        exact = [a + Fraction(b - a, 1 << n1) * j for j in range((1 << n1) + 1)]
+        errors = [abs(v - exact[j + end]) for j, cell in enumerate(cells) for end, v in enumerate(cell)]
+        shared = all(left[1] == right[0] for left, right in zip(cells, cells[1:], strict=False))
+        if max(errors) > Fraction(n1, 2) or not shared:
+            raise bench.mismatch(number, {"a": a, "b": b}, [f"cells {cells}", f"largest error {float(max(errors))}"])
 
 
 @pytest.mark.parametrize("n1", [1, 2, 3, 4])

@@ -34,7 +34,7 @@ def stimuli(dut, count):
 
 @cocotb.test
 async def equals_model(dut):
-    """The model's cell, select_latency - 1 clocks later; ties, too."""
+    """The model's cell, select_latency - 2 clocks later; ties, too."""
     n1 = bench.parameter(dut, "N1")
     await bench.start(dut)
     items = ({"values_i": values} for values in stimuli(dut, 800))

@@ -8,8 +8,6 @@ from cocotb.triggers import FallingEdge
 import bench
 from raydix.normalize import norm_limit, normalize
 
-LATENCY = 2
-
 
 def sizes(dut):
     """WIn, WOut, Count, Limit."""
@@ -40,11 +38,12 @@ def stimuli(dut, count):
 
 @cocotb.test
 async def equals_model(dut):
-    """Every bit is the model's, two clocks later."""
+    """Every bit is the model's, Stages clocks later."""
     dut.en_i.value = 1
     await bench.start(dut)
+    stages = bench.parameter(dut, "Stages")
     items = ({"values_i": values} for values in stimuli(dut, 800))
-    await bench.pipeline(dut, items, lambda item: {"values_o": model(dut, item["values_i"])}, LATENCY)
+    await bench.pipeline(dut, items, lambda item: {"values_o": model(dut, item["values_i"])}, stages)
 
 
 @cocotb.test
@@ -53,7 +52,7 @@ async def stalls(dut):
     random = bench.rng()
     width, _, size, _ = sizes(dut)
     values_i, values_o = bench.Port(dut, "values_i"), bench.Port(dut, "values_o")
-    taken = []
+    taken, latency = [], bench.parameter(dut, "Stages")
     await bench.start(dut)
     for number in range(400):
         values = [bench.signed(random.getrandbits(width) >> random.randrange(width), width) for _ in range(size)]
@@ -62,11 +61,11 @@ async def stalls(dut):
         dut.en_i.value = enable
         await FallingEdge(dut.clk_i)
         taken += [values] if enable else []
-        if len(taken) >= LATENCY:
-            expected = values_o.words(model(dut, taken[-LATENCY]))
+        if len(taken) >= latency:
+            expected = values_o.words(model(dut, taken[-latency]))
             lines = values_o.differences(expected, values_o.read())
             if lines:
-                raise bench.mismatch(number, {"values_i": taken[-LATENCY]}, lines)
+                raise bench.mismatch(number, {"values_i": taken[-latency]}, lines)
 
 
 @cocotb.test
@@ -88,8 +87,13 @@ SETS = [
     dict(WIn=6, WOut=6, Count=2, Limit=3),
     dict(WIn=6, WOut=4, Count=2, Limit=3),
     dict(WIn=36, WOut=36, Count=5, Limit=7),
+    dict(WIn=6, WOut=5, Count=2, Limit=3, Stages=3),
+    dict(WIn=36, WOut=36, Count=5, Limit=7, Stages=3),
     dict(WIn=48, WOut=48, Count=3, Limit=15),
+    dict(WIn=17, WOut=5, Count=2, Limit=15, Stages=4),
+    dict(WIn=48, WOut=48, Count=3, Limit=31, Stages=4),
     dict(WIn=64, WOut=36, Count=5, Limit=63),
+    dict(WIn=64, WOut=36, Count=5, Limit=63, Stages=4),
 ]
 
 

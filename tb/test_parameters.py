@@ -20,6 +20,8 @@ CASES = [
     ("rdx_normalize", dict(Limit=0), "Limit = 0; allowed: 1 to 35"),
     ("rdx_normalize", dict(Limit=63), "Limit = 63; allowed: 1 to 35"),
     ("rdx_normalize", dict(Limit=6), "Limit = 6; allowed: a power of two less one"),
+    ("rdx_normalize", dict(Stages=1), "Stages = 1; allowed: 2, 3 and, with Limit = 15 or more, 4"),
+    ("rdx_normalize", dict(Stages=4), "Stages = 4; allowed: 2, 3 and, with Limit = 15 or more, 4"),
     ("rdx_select", dict(Rules=0), "Rules = 0; allowed: 1 certified, 2 paper, 3 both"),
     ("rdx_select", dict(Rules=4), "Rules = 4; allowed: 1 certified, 2 paper, 3 both"),
     ("rdx_step", dict(K=11), "K = 11; allowed: 1 to 10 (N1*K is at most 32)"),
@@ -72,7 +74,7 @@ CASES = [
         "Pixels = 4, MaxWidth = 50; allowed: a power of two, a multiple of it",
     ),
 ]
-UNREACHABLE = {"rdx_carry: CoordWidth"}  # compares two constants of rdx_pkg
+UNREACHABLE = set()
 
 
 def elaborate(module, parameters):

@@ -9,6 +9,7 @@ import pytest
 from cocotb.triggers import FallingEdge, with_timeout
 
 import bench
+import latency
 import streams
 import streams_extra
 from raydix.kernel import words, zeros
@@ -16,7 +17,6 @@ from raydix.product import product
 from test_quartic import bounds, exact, stimuli
 
 RATES = (0.0, 0.3, 0.8)
-LATENCY = {2: 3, 4: 6}
 
 
 def model(quads, quartic, width, degree):
@@ -66,7 +66,7 @@ async def equals_model(dut, idle, stall):
     if not idle and not stall:
         first = sink.transfers[0]
         assert sink.transfers == list(range(first, first + len(sink.received))), "a bubble"
-        assert first == LATENCY[bench.parameter(dut, "D")], f"latency {first}"
+        assert first == latency.product(bench.parameter(dut, "D")), f"latency {first}"
 
 
 @cocotb.test
@@ -79,7 +79,7 @@ async def reset_empties(dut):
     await bench.start(dut)
     names, structs = ("ray_i", "ends_i", "quartic_i", "quads_i"), (bench.RAY, bench.ENDS, None, None)
     task = cocotb.start_soon(streams.source(dut, items(random, degree, 9), random, 0, "ray_", names, structs))
-    for _ in range(12):
+    for _ in range(24):
         await FallingEdge(dut.clk_i)
     assert dut.ray_valid_o.value == 1
     task.cancel()
@@ -88,7 +88,7 @@ async def reset_empties(dut):
     await FallingEdge(dut.clk_i)
     dut.rst_ni.value = 1
     dut.ray_ready_i.value = 1
-    for _ in range(12):
+    for _ in range(24):
         assert dut.ray_valid_o.value == 0
         await FallingEdge(dut.clk_i)
 

@@ -5,14 +5,12 @@ from fractions import Fraction
 from math import comb
 
 import cocotb
-from cocotb.triggers import FallingEdge
 
 import bench
+import latency
 from raydix.formats import OPERAND_SHIFT, PRODUCT_DROP
 from raydix.kernel import words, zeros
 from raydix.quartic import quartic_form
-
-LATENCY = 4
 
 # Limits of the accumulators. |Q1|, |Q2| < 2^62; at the upper end the operand, rounded half up, must fit 36 bits.
 LEAST_AB, LARGEST_AB = -(1 << 62), (1 << 62) - (1 << (OPERAND_SHIFT - 1)) - 1
@@ -100,33 +98,12 @@ def outside_of_bound(form, quads, quartic):
 
 @cocotb.test
 async def equals_model(dut):
-    """Every bit of the five coefficients is the model's, four enabled clocks later, however en_i comes and goes."""
+    """Every bit of the five coefficients is the model's, QuarticLatency clocks later, one ray a clock."""
     await bench.start(dut)
-    random = bench.rng()
-    quads_i, form_o = bench.Port(dut, "quads_i"), bench.Port(dut, "form_o")
-    waiting, number = [], 0
-    for enabled in (1.0, 0.5):
-        dut.en_i.value = 1
-        for quads, quartic in stimuli(random, 600):
-            while random.random() >= enabled:  # nothing moves while en_i = 0
-                quads_i.write([random.getrandbits(64) for _ in range(9)])
-                dut.quartic_i.value = random.getrandbits(1)
-                dut.en_i.value = 0
-                before = form_o.read()
-                await FallingEdge(dut.clk_i)
-                assert form_o.read() == before
-            dut.en_i.value = 1
-            quads_i.write(quads)
-            dut.quartic_i.value = int(quartic)
-            waiting.append((quads, quartic))
-            await FallingEdge(dut.clk_i)
-            if len(waiting) == LATENCY:
-                item = waiting.pop(0)
-                lines = form_o.differences(form_o.words(model(*item)), form_o.read())
-                if lines:
-                    raise bench.mismatch(number, {"quads": item[0], "quartic": int(item[1])}, lines)
-                number += 1
-    assert number >= 1200
+    items = (dict(quads_i=list(quads), quartic_i=int(quartic)) for quads, quartic in stimuli(bench.rng(), 1200))
+    await bench.pipeline(
+        dut, items, lambda item: {"form_o": model(item["quads_i"], item["quartic_i"])}, latency.QUARTIC
+    )
 
 
 @cocotb.test

@@ -13,7 +13,7 @@ from test_raster import QUADRIC, VECTOR
 INFO = bench.Struct(("vector", 1), ("quartic", 1), ("y0", PIXEL_WIDTH), ("y1", PIXEL_WIDTH), ("width", PIXEL_WIDTH))
 KINDS = (QUADRIC, VECTOR)
 LANES_WORDS, WAY = 20, 3  # words of header and lanes; clocks that words are under way
-KIND = 4  # an error
+ERRORS = (4, 5, 6, 7, 9)  # of descriptors
 
 
 class Side:
@@ -181,9 +181,10 @@ async def error_ends_the_frame(dut):
     random = bench.rng()
     await start(dut)
     for count in counts(dut):
-        result, side = await rows(dut, random, walking.random_frame(random, count, KINDS), KIND)
-        assert result.error == KIND and not result.events and result.clocks == 2 * count + 3
-        await whole(dut, random, walking.random_frame(random, count, KINDS))
+        for error in ERRORS:
+            result, side = await rows(dut, random, walking.random_frame(random, count, KINDS), error)
+            assert result.error == error and not result.events and result.clocks == 2 * count + 3
+            await whole(dut, random, walking.random_frame(random, count, KINDS))
 
 
 @cocotb.test
@@ -208,6 +209,8 @@ async def largest_frame(dut):
     await start(dut)
     await whole(dut, random, walking.Frame(random, 4096, 2, [(0, 1, 0, 1)], [QUADRIC], False))
     await whole(dut, random, walking.Frame(random, 4096, 4096, [(0, 4095, 4095, 4095)], [VECTOR]))
+    await whole(dut, random, walking.Frame(random, 4096, 2, [(7, 1, 7, 1)], [QUADRIC]))
+    await whole(dut, random, walking.Frame(random, 1, 1, [(0, 0, 0, 0)], [QUADRIC]))
 
 
 @pytest.mark.parametrize("slots", [1, 5, 64])

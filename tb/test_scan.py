@@ -82,7 +82,7 @@ async def scan(dut, random, rows, limits, idle, stall):
     sink = streams_extra.sink(dut, random, stall, "ray_", STRUCTS)
     watching = cocotb.start_soon(watch(dut, limits, hidden))
     feeding_task = cocotb.start_soon(feed(dut, random, rows, idle))
-    limit = 10 * 40 * (len(every) + 200 * len(rows))
+    limit = 10 * (1000 + 20 * len(every) + 400 * len(rows))
     await with_timeout(cocotb.start_soon(sink.take(len(expected))), limit, "ns")
     await with_timeout(feeding_task, limit, "ns")
     for _ in range(10000):

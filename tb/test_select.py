@@ -7,6 +7,7 @@ import cocotb
 import pytest
 
 import bench
+import latency
 from raydix.bound import bounded
 from raydix.cells import subdivide
 from raydix.formats import FORM_INDEX, FORM_WORDS, VECTOR_WIDTH, ZONES
@@ -68,8 +69,7 @@ async def equal(dut, items):
         return outputs | {"pick_o": [pick], "next_o": [following]}
 
     await bench.start(dut)
-    latency = 1 if rules == CERTIFIED else 2 + (n1 + 2) // 2
-    await bench.pipeline(dut, items, expect, latency)
+    await bench.pipeline(dut, items, expect, latency.select(n1, rules))
 
 
 @cocotb.test

@@ -7,6 +7,7 @@ import cocotb
 import pytest
 
 import bench
+import latency
 from raydix.formats import (
     BOX_WIDTH,
     COORD_FRAC,
@@ -23,7 +24,6 @@ from raydix.normalize import norm_limit, normalize
 from raydix.select import changes
 from raydix.settle import settle
 
-LATENCY = 2
 FACES = bench.Struct(("face", -COORD_WIDTH, 3))  # of low_i and of high_i
 
 
@@ -125,7 +125,7 @@ def stimuli(dut, count, faces, random):
 
 @cocotb.test
 async def equals_model(dut):
-    """Status, level, ends and scaled control points, two clocks later; other items pass unchanged."""
+    """Status, level, ends and scaled control points, SettleLatency clocks later; other items pass unchanged."""
     seen = set()
     kinds = structs(dut)
     layout = kinds["segment_o"]
@@ -145,7 +145,7 @@ async def equals_model(dut):
         await bench.noise(dut, "low_i", "high_i")
         for name, face in zip(("low_i", "high_i"), faces, strict=True):
             bench.Port(dut, name, FACES).write(dict(face=face))
-        await bench.pipeline(dut, items, expect, LATENCY, kinds)
+        await bench.pipeline(dut, items, expect, latency.SETTLE, kinds)
     assert seen == {(RUN, s) for s in (RUN, HIT, AGAIN, DONE)} | {(s, s) for s in (IDLE, AGAIN, HIT, DONE)} or (
         bench.parameter(dut, "K") == 1 and (RUN, RUN) not in seen
     ), seen

@@ -5,35 +5,38 @@ import cocotb
 import pytest
 
 import bench
+import latency
 from raydix.cells import subdivide
+from raydix.formats import BOX_WIDTH
 from raydix.item import BOX, SIZE, C
 from raydix.outside import outside_cells
-from test_carry import random_ends
-from test_descend import cell
+from test_descend import cell, random_ends
+
+BOXES = bench.Struct(("box", BOX_WIDTH, 3))
 
 
 def shape(dut):
-    """N1, K, W, D, HalveStages, Wait."""
-    return [bench.parameter(dut, name) for name in ("N1", "K", "W", "D", "HalveStages", "Wait")]
+    """N1, W, D, HalveStages, Wait."""
+    return [bench.parameter(dut, name) for name in ("N1", "W", "D", "HalveStages", "Wait")]
 
 
 def stimuli(dut, count):
-    """Control (any, with a box at each of several sizes), segment, and the cell that will be chosen."""
-    n1, steps, width, degree, *_ = shape(dut)
-    random, control = bench.rng(), bench.control(n1 * steps)
+    """Box at each of several sizes, segment, and the cell that will be chosen."""
+    n1, width, degree, *_ = shape(dut)
+    random = bench.rng()
     for b in bench.vectors(random, width, degree + 1, count):
-        fields = control.unpack(random.getrandbits(control.width)) | dict(box=random.choices((0, 0, 1, 2, 5, 31), k=3))
-        yield dict(control_i=fields, segment_i=random_ends(random) | dict(b=b), pick=random.randrange(1 << n1))
+        box = dict(box=random.choices((0, 0, 1, 2, 5, 31), k=3))
+        yield dict(box_i=box, segment_i=random_ends(random) | dict(b=b), pick=random.randrange(1 << n1))
 
 
 def model(dut, item):
     """Boundary values, mask of cells outside, chosen cell."""
-    n1, _, _, degree, *_ = shape(dut)
-    control, segment = item["control_i"], item["segment_i"]
+    n1, _, degree, *_ = shape(dut)
+    box, segment = item["box_i"]["box"], item["segment_i"]
     cells = [*segment["b"], *[0] * ((1 << n1) * degree - degree)]
     subdivide(cells, degree, n1)
     state = [0] * SIZE
-    state[BOX : BOX + 3], state[C : C + 6] = control["box"], segment["start"] + segment["stop"]
+    state[BOX : BOX + 3], state[C : C + 6] = box, segment["start"] + segment["stop"]
     outside = outside_cells(state, [0] * ((1 << n1) + 1), n1)
     at = item["pick"] * degree
     return cells, outside, cell(segment, item["pick"], n1) | dict(b=cells[at : at + degree + 1])
@@ -41,31 +44,32 @@ def model(dut, item):
 
 @cocotb.test
 async def equals_model(dut):
-    """An item each clock: cells and masks after N1*HalveStages clocks, the cell a clock after a choice Wait later."""
-    n1, steps, width, degree, stages, wait = shape(dut)
-    control, segment = bench.control(n1 * steps), bench.segment(width, degree)
-    structs = dict(control_i=control, control_o=control, segment_i=segment, cell_o=segment)
+    """An item a clock: cells and masks after N1*HalveStages clocks, Wait later the choice, then the cell."""
+    n1, width, degree, stages, wait = shape(dut)
+    segment = bench.segment(width, degree)
+    structs = dict(box_i=BOXES, segment_i=segment, cell_o=segment)
     items = list(stimuli(dut, 300))
     answers = [model(dut, item) for item in items]
     await bench.start(dut)
 
     def first(number):
         cells, outside, _ = answers[number]
-        return dict(control_o=items[number]["control_i"], cells_o=cells, outside_o=outside)
+        return dict(cells_o=cells, outside_o=outside)
 
     await given(dut, items, first, n1 * stages, n1 * stages + wait, structs)
-    await given(dut, items, lambda number: dict(cell_o=answers[number][2]), n1 * stages + wait + 1,
-                n1 * stages + wait, structs)  # fmt: skip
+    chosen = n1 * stages + wait
+    late = chosen + latency.pick(n1, degree)
+    await given(dut, items, lambda number: dict(cell_o=answers[number][2]), late, chosen, structs)
 
 
-async def given(dut, items, expect, latency, choice, structs, every=1, fill=None):
-    """Items one after the other, each one's choice ``choice`` clocks later; what ``expect`` names ``latency`` later.
+async def given(dut, items, expect, delay, choice, structs, every=1, fill=None):
+    """Items one after the other, each one's choice ``choice`` clocks later; what ``expect`` names ``delay`` later.
 
     every  an item so many clocks, with ``fill()`` between them
     """
 
     def clocks():
-        count = len(items) * every + choice + latency
+        count = len(items) * every + choice + delay
         for clock in range(count):
             place, phase = divmod(clock, every)
             item = items[place] if phase == 0 and place < len(items) else fill() if fill else items[0]
@@ -79,7 +83,7 @@ async def given(dut, items, expect, latency, choice, structs, every=1, fill=None
     def answer(inputs):
         return {} if inputs.number is None else expect(inputs.number)
 
-    await bench.pipeline(dut, clocks(), answer, latency, structs)
+    await bench.pipeline(dut, clocks(), answer, delay, structs)
 
 
 class Numbered(dict):
@@ -91,9 +95,9 @@ class Numbered(dict):
 
 
 SETS = [
-    dict(N1=3, K=8, W=36, D=4, HalveStages=2, Wait=1),
-    dict(N1=1, K=32, W=16, D=2, HalveStages=1, Wait=3),
-    dict(N1=4, K=2, W=48, D=3, HalveStages=0, Wait=5),
+    dict(N1=3, W=36, D=4, HalveStages=2, Wait=1),
+    dict(N1=1, W=16, D=2, HalveStages=1, Wait=3),
+    dict(N1=4, W=48, D=3, HalveStages=0, Wait=5),
 ]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The processor as a host and a display see it: AXI4-Lite, AXI4-Stream, stalls, reset in mid-frame, illegal programs."""
+"""The processor as a host and a display see it: AXI4-Lite, AXI4-Stream, stalls, resets, illegal programs."""
 
 import functools
 import logging

@@ -168,6 +168,33 @@ async def equals_model(dut):
     )
 
 
+@cocotb.test
+async def on_the_surface(dut):
+    """Where the distance is 0 to the bit a point is inside, and what limits the indicator keeps that sign.
+
+    No spiral has a guard above 0 there, so it is raised until it is in force.
+    """
+    dice, general = bench.rng(), bench.parameter(dut, "General")
+    found, points_of = [], {}
+    for form in forms(dice, general, 12):
+        near = [beside(dice, form) for _ in range(300)]
+        zero = [point for point, value in zip(near, model(form, near, general)[0], strict=True) if value == 0]
+        raised = form._replace(words=form.words.copy())
+        raised.words[formats.FORM_INDEX["guard"]] = bench.high(formats.VECTOR_WIDTH)
+        if zero:
+            assert (model(raised, zero, general)[0] < 0).all()
+            found.append(raised)
+            points_of[id(raised)] = zero
+    assert sum(map(len, points_of.values())) >= 5
+    await with_forms(
+        dut,
+        found,
+        lambda form: ({"point_i": point} for point in points_of[id(form)]),
+        lambda form, item: {"value_o": int(model(form, [item["point_i"]], general)[0][0])},
+        latency.VECSUM,
+    )
+
+
 @pytest.mark.parametrize("parameters", [dict(General=0), dict(General=1)], ids=bench.label)
 def test_indicator(parameters):
     """The evaluator of helices, and that of every spiral."""

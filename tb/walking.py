@@ -5,7 +5,7 @@ from cocotb.triggers import FallingEdge, ReadOnly
 
 import bench
 import looks
-from raydix.formats import PIXEL_WIDTH, SURFACE_WIDTH, UNIT_WIDTH
+from raydix.formats import PIXEL_WIDTH, SURFACE_WIDTH, UNIT_FRAC
 from raydix.kernel import words
 from raydix.raster import is_vector_sum, rectangle
 from test_raster import descriptor
@@ -13,7 +13,7 @@ from test_raster import descriptor
 SKIPS = ("early", "depth", "rootless", "boxes", "rectangle")
 FRAME = bench.Struct(
     ("last_x", PIXEL_WIDTH), ("last_y", PIXEL_WIDTH), ("last_slot", SURFACE_WIDTH), ("empty", 1), ("k_stop", 6),
-    *((name, 1) for name in SKIPS), ("ambient", UNIT_WIDTH), ("background", UNIT_WIDTH, 3),
+    *((name, 1) for name in SKIPS), ("ambient", 1 + UNIT_FRAC), ("background", 1 + UNIT_FRAC, 3),
 )  # fmt: skip
 
 
@@ -36,8 +36,8 @@ class Frame:
         fields = {name: self.random.getrandbits(1) for name in SKIPS[:-1]}
         fields |= {"last_x": self.width - 1, "last_y": self.height - 1, "rectangle": int(self.skip)}
         fields |= {"last_slot": max(0, len(self.descriptors) - 1), "empty": int(not self.descriptors)}
-        fields |= {"k_stop": self.random.getrandbits(6), "ambient": self.random.getrandbits(17)}
-        return fields | {"background": [self.random.getrandbits(17) for _ in range(3)]}
+        fields |= {"k_stop": self.random.getrandbits(6), "ambient": self.random.getrandbits(1 + UNIT_FRAC)}
+        return fields | {"background": [self.random.getrandbits(1 + UNIT_FRAC) for _ in range(3)]}
 
     def crossing(self, y):
         """Slots whose rectangles line ``y`` crosses."""
@@ -176,10 +176,10 @@ async def run_frame(dut, random, frame, make_side, stall=0.0, free=1.0, abort=No
         started = True
         rings.clock()
         side.passed()
-        if finish is not None:
+        if finish is not None and rings.idle():
             finish -= 1
         if ended and y == frame.height - 1:
-            finish, result.gaps = random.randrange(6), rings.gaps
+            finish, result.gaps = random.randrange(4, 9), rings.gaps  # words are under way for three clocks
         result.clocks += 1
         assert result.clocks < 5000 + 400 * len(frame.descriptors) * frame.height * (frame.width + 1)
     await FallingEdge(dut.clk_i)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an item carries linearly along its segment: coordinates and depth (mirrors ``rtl/rdx_carry.sv``)."""
+"""What an item carries linearly along its segment: coordinates and depth (mirrors ``rtl/rdx_descend.sv``)."""
 
 from .halve import average
 from .kernel import kernel

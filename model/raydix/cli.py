@@ -2,6 +2,7 @@
 """The command ``raydix``."""
 
 import argparse
+import json
 import os
 import re
 import sys
@@ -18,8 +19,8 @@ from .config import RULES, Config, ConfigError
 from .fit import families, frame_parameters
 from .formats import STEPS_MAX
 from .hits import FrameHits
-from .image import ImageError, frame_writers, write_files
-from .rtl import TOP, RtlError, build
+from .image import ImageError, frame_writers, png_writer, write_files
+from .rtl import TOP, RtlError, build, top_parameters
 from .scene import Scene, SceneError, load_scene
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
     parser.add_argument("--n1", type=int, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)")
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
+    parser.add_argument("--k-stop", type=int, metavar="K", help="steps to a hit in this frame (default: all)")
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
     parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
     parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
@@ -62,6 +64,11 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the pictures")
     render.add_argument("--backend", choices=("golden", "rtl"), default="golden", help="who computes (default: golden)")
     render.add_argument("--wave", type=Path, metavar="FILE", help="with --backend rtl: write a waveform, .vcd or .fst")
+    render.add_argument("--frames", action="store_true", help="every frame of the scene's sequence, and a preview")
+    configure = commands.add_parser("configure", help="the smallest processor that renders a scene")
+    configure.add_argument("scene", type=Path, help="scene file (TOML)")
+    _add_scene_options(configure)
+    configure.add_argument("--json", action="store_true", help="the parameters of rdx_top as JSON")
     verify = commands.add_parser("verify", help="render by golden model and RTL and compare them bit for bit")
     verify.add_argument("scene", type=Path, nargs="+", help="scene files (TOML), with different names")
     _add_scene_options(verify)
@@ -87,6 +94,7 @@ def _config(args: argparse.Namespace, scene: Scene) -> Config:
     return Config(
         n1=args.n1,
         steps=steps,
+        k_stop=args.k_stop,
         width=args.width,
         units=units,
         rules=args.rule,
@@ -151,6 +159,8 @@ def _render(args: argparse.Namespace) -> int:
 
     scene = _load(args, args.scene)
     config = _config(args, scene)
+    if args.frames:
+        return _render_frames(args, scene, config)
     if args.wave and args.backend != "rtl":
         raise ConfigError(f"wave: found '{args.wave}' with the golden model; allowed: with --backend rtl")
     if args.backend == "rtl":
@@ -163,6 +173,56 @@ def _render(args: argparse.Namespace) -> int:
     _say_what_is_seen(scene, frame.hits)
     for path in write_files(frame_writers(frame, args.out, scene.name)):
         print(path)
+    return 0
+
+
+def _render_frames(args: argparse.Namespace, scene: Scene, config: Config) -> int:
+    """A sequence: a PNG for each frame, and an animated preview."""
+    from .sequence import preview_writer, render_sequence
+
+    if not scene.cameras:
+        raise ConfigError(f"frames: found no sequence in {scene.path}; allowed: a scene with [turntable] or [[frame]]")
+    if args.wave:
+        raise ConfigError("wave: found with --frames; allowed: with a single frame")
+    if args.backend == "rtl":
+        _build(config)
+    with _progress() as bar:
+        pictures = render_sequence(scene, config, args.backend, args.threads, bar(f"{args.backend}, frames"))
+    digits = len(str(len(pictures) - 1))
+    writers = {
+        args.out / f"{scene.name}-{number:0{digits}}.png": png_writer(rgb) for number, rgb in enumerate(pictures)
+    }
+    for path in write_files(writers | {args.out / f"{scene.name}.gif": preview_writer(pictures)}):
+        print(path)
+    return 0
+
+
+def _configure(args: argparse.Namespace) -> int:
+    """Parameters of rdx_top, and what each of them is for."""
+    scene = _load(args, args.scene)
+    config = _config(args, scene)
+    values = top_parameters(config)
+    if args.json:
+        print(json.dumps(values, indent=2))
+        return 0
+    table = Table("parameter", "value", "because")
+    opaque = all(s.opacity == 1 for s in scene.surfaces)
+    reasons = {
+        "N1": "asked for", "K": "digits of t over N1", "W": "asked for", "U": "asked for",
+        "D": {0: "no algebraic surface", 2: "quadrics only", 4: "a quartic"}[config.degree],
+        "Rules": f"the {config.rule} rule only",
+        "Vecsum": {"none": "no spiral", "helix": "helices only", "general": "spirals that grow, or parts of a turn"}[
+            config.vecsum
+        ],
+        "Lanes": "asked for, or J - 1", "VectorUnits": "asked for",
+        "Surfaces": "surfaces of the scene",
+        "Layers": "all surfaces are opaque" if opaque else "roots of the transparent surfaces, and one",
+        "MaxWidth": "columns of the picture", "Pixels": "asked for",
+    }  # fmt: skip
+    for name, value in values.items():
+        table.add_row(name, str(value), reasons[name])
+    Console().print(table)
+    print(" ".join(f"-G{name}={value}" for name, value in values.items()))
     return 0
 
 
@@ -251,7 +311,8 @@ def main(argv: list[str] | None = None) -> int:
     """Run the command line. Exit status: 0 fine, 1 outputs differ, 2 bad input, 130 interrupted."""
     args = _parser().parse_args(argv)
     try:
-        return {"render": _render, "verify": _verify, "export": _export, "compare": _compare}[args.command](args)
+        commands = {"render": _render, "verify": _verify, "export": _export, "compare": _compare}
+        return (commands | {"configure": _configure})[args.command](args)
     except USER_ERRORS as error:
         for line in str(error).splitlines():
             print(f"raydix: {line}", file=sys.stderr)

@@ -30,6 +30,7 @@ class Config:
     layers    hits of a pixel that it keeps, 1 to 8
     max_width  pixels of its longest line, a multiple of `beat`, up to 4,096
     beat      pixels in a beat of its pixel stream: 1, 2 or 4
+    k_stop    steps to a hit for this frame, 1 to K: fewer where fewer digits of t are wanted; K if not given
 
     Raises :class:`ConfigError` with the parameter, what was found and what is allowed.
     """
@@ -48,6 +49,7 @@ class Config:
     layers: int = 4
     max_width: int = 1920
     beat: int = 1
+    k_stop: int | None = None  # K
 
     def __post_init__(self):
         def check(ok, name, allowed):
@@ -85,14 +87,17 @@ class Config:
         check(self.beat in (1, 2, 4), "beat", "1, 2 or 4")
         check(self.beat <= self.max_width <= 4096, "max_width", f"{self.beat} to 4096")
         check(self.max_width % self.beat == 0, "max_width", f"a multiple of {self.beat} (the pixels of a beat)")
+        if self.k_stop is None:
+            object.__setattr__(self, "k_stop", self.steps)
+        check(isinstance(self.k_stop, int) and 1 <= self.k_stop <= self.steps, "k_stop", f"1 to {self.steps} (K)")
         check(self.rules in (*RULES, "both"), "rules", "certified, paper or both")
         check(self.rule in RULES, "rule", "certified or paper")
         check(self.rules in ("both", self.rule), "rule", f"{self.rules} (the rules built in)")
 
     @property
     def digits(self) -> int:
-        """n, the binary digits of t."""
-        return self.n1 * self.steps
+        """The binary digits of t: n, or fewer where `k_stop` is below K."""
+        return self.n1 * self.k_stop
 
     @property
     def cells(self) -> int:
@@ -100,7 +105,9 @@ class Config:
         return 1 << self.n1
 
     def with_(self, **changes) -> "Config":
-        """A copy with other values; with another `n1` all lanes, unless `lanes` is given."""
+        """A copy with other values; with another `n1` all lanes, with other `steps` all of them, unless given."""
         if "n1" in changes:
             changes = {"lanes": None, **changes}
+        if "steps" in changes:
+            changes = {"k_stop": None, **changes}
         return replace(self, **changes)

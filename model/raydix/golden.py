@@ -10,6 +10,7 @@ from .config import Config
 from .core import renderer, scratch
 from .formats import VECTOR_WIDTH
 from .hits import FrameHits, SurfaceHits
+from .item import FIRST
 from .kernel import words
 
 ROWS = 16  # rows of a piece of work
@@ -23,12 +24,16 @@ def _piece(surface: CompiledSurface, descriptor, config: Config, hits: SurfaceHi
         width, degree, general = VECTOR_WIDTH, 1, int(config.vecsum == "general")
     else:
         width, degree, general = config.width, config.degree, 0
+    state, item, *others = scratch(config, degree)
+    item[FIRST] = config.steps - config.k_stop
     render_rows = renderer(config.n1, config.steps, width, degree, general)
     render_rows(
         descriptor,
         begin,
         end,
-        *scratch(config, degree),
+        state,
+        item,
+        *others,
         hits.t.reshape(places),
         hits.depth.reshape(places),
         hits.point.reshape(places, 3),

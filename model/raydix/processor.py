@@ -73,7 +73,7 @@ class Host:
                 self.write("MATERIALS", offset=256 * surface.index + 4 * number, value=int(word))
         self.write("SIZE", width=compiled.width, height=compiled.height)
         self.write("COUNT", count=len(compiled.surfaces))
-        self.write("K_STOP", k_stop=config.steps if k_stop is None else k_stop)
+        self.write("K_STOP", k_stop=config.k_stop)
         self.write("SKIP", **{name: int(name in skips) for name in SKIPS})
         self.write("AMBIENT", ambient=int(units([scene.light.ambient])[0]))
         red, green, blue = (int(v) for v in units(scene.background.color))
@@ -104,14 +104,13 @@ def run_frames(
     frames: list[tuple[Scene, CompiledFrame]],
     config: Config,
     skips=ALL,
-    k_stop: int | None = None,
     stall: int | None = None,
     wave: Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Output:
     """Render frames of one size by the RTL, each loaded while the one before is made.
 
-    skips   what may be skipped, names of SKIPS; k_stop: steps to a hit
+    skips   what may be skipped, names of SKIPS
     stall   seed of random stalls on both buses; wave, progress: see :func:`~raydix.rtl.trace_rtl`
     Raises :class:`~raydix.rtl.RtlError`, and SceneError where a frame does not fit the configuration.
     """
@@ -129,7 +128,7 @@ def run_frames(
     host = Host()
     for scene, compiled in frames:
         host.until("STATUS", "queued", 0)
-        host.frame(scene, compiled, config, skips, k_stop)
+        host.frame(scene, compiled, config, skips)
     host.until("FRAMES", "count", len(frames))
     for name in COUNTERS:
         host.read(name)

@@ -12,6 +12,7 @@ from .item import (
     DEPTH,
     DONE,
     ENTERS,
+    FIRST,
     FOLLOW,
     HIT,
     LEVEL,
@@ -36,7 +37,7 @@ def start(item, first, degree):
     for i in range(C, B + degree + 1):
         item[i] = first[i]
     item[STATUS] = RUN
-    item[LEVEL] = 0
+    item[LEVEL] = item[FIRST]
     item[T] = 0
     item[PENDING] = 0
 
@@ -70,7 +71,7 @@ def more(item):
 def trace(item, first, form, work, n1, steps, width, degree, general, t, depth, point, enters, at):
     """Follow one item to its end; the records of its hits go to places ``at``, ``at``+1, … in order of t.
 
-    item        PAPER, ROOTS and BOX are set; the rest is working state
+    item        PAPER, ROOTS, BOX and FIRST are set; the rest is working state
     first       vector of item.SIZE: C, D, B of the whole segment
     form, work, … general   as in :func:`~raydix.step.step`
     t, depth, point[3], enters   outputs: digits, s1p31, s2p30, 1 where the indicator is positive before the hit

@@ -10,7 +10,7 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from os import PathLike
 from pathlib import Path
@@ -24,6 +24,7 @@ from raydix import surfaces
 from raydix.formats import MAX_IMAGE, MAX_SURFACES
 
 LARGEST = 1e9  # magnitude of any length, coordinate or coefficient
+MAX_FRAMES = 10_000  # of a sequence
 SMALLEST = 1e-9  # of a length that must be positive
 
 Problem = tuple[str, str, str]  # key below the table ("" = the value itself), what was found, what is allowed
@@ -99,6 +100,12 @@ Pixels = Annotated[
             _is_pixel_count),
 ]  # fmt: skip
 
+Frames = Annotated[
+    int,
+    _before(f"an integer from 1 to {MAX_FRAMES}",
+            lambda v: isinstance(v, int) and not isinstance(v, bool) and 1 <= v <= MAX_FRAMES),
+]  # fmt: skip
+
 Vector = Annotated[tuple[Number, Number, Number], _array(3, "three numbers [x, y, z]")]
 Direction = Annotated[
     Vector, _after("a vector that is not zero (length at least 1e-9)", lambda v: _length(v) >= SMALLEST)
@@ -155,6 +162,22 @@ class Camera(_Table):
         elif _length(_cross(self.up, view)) <= 1e-6 * _length(self.up) * _length(view):
             allowed = "a vector that is not along look_at - eye (sine of the angle above 1e-6)"
             yield "up", f"{_show(self.up)}, along the view", allowed
+
+
+class Turntable(_Table):
+    """The camera goes round `look_at`, about the axis `up`: `frames` steps that make `degrees` together."""
+
+    frames: Frames
+    degrees: Number = 360.0
+
+
+class Keyframe(_Table):
+    """A frame of a sequence: what is not given is as in `camera`."""
+
+    eye: Vector | None = None
+    look_at: Vector | None = None
+    up: Direction | None = None
+    vfov: Degrees | None = None
 
 
 class Light(_Table):
@@ -365,6 +388,11 @@ class _Tables(_Table):
     camera: Camera
     light: Light = Light()
     background: Background = Background()
+    turntable: Turntable | None = None
+    frame: Annotated[
+        tuple[Keyframe, ...],
+        _before(f"up to {MAX_FRAMES} tables [[frame]]", lambda v: isinstance(v, list) and len(v) <= MAX_FRAMES),
+    ] = ()
     surface: Annotated[
         tuple[Annotated[Surface, Field(discriminator="type"), BeforeValidator(_check_type)], ...],
         _before(f"1 to {MAX_SURFACES} tables [[surface]]",
@@ -382,6 +410,11 @@ class Scene:
     light: Light
     background: Background
     surfaces: tuple[Surface, ...]
+    cameras: tuple[Camera, ...] = ()  # of the frames of a sequence
+
+    def frames(self) -> list["Scene"]:
+        """The scene of each frame of a sequence, or itself."""
+        return [replace(self, camera=camera) for camera in self.cameras] or [self]
 
 
 def load_scene(path: str | PathLike[str], width: int | None = None, height: int | None = None) -> Scene:
@@ -400,7 +433,41 @@ def load_scene(path: str | PathLike[str], width: int | None = None, height: int 
     except ValidationError as error:
         lines = [_line(path, *p) for e in error.errors(include_url=False) for p in _translate(e)]
         raise SceneError("\n".join(lines)) from None
-    return Scene(path.stem, path, tables.camera, tables.light, tables.background, tables.surface)
+    cameras = _cameras(path, tables)
+    return Scene(path.stem, path, tables.camera, tables.light, tables.background, tables.surface, cameras)
+
+
+def _cameras(path: Path, tables: _Tables) -> tuple[Camera, ...]:
+    """The camera of each frame: those of the turntable, or of the list."""
+    if tables.turntable and tables.frame:
+        raise SceneError(_line(path, "frame", "frames beside a turntable", "one of [turntable] and [[frame]]"))
+    base = tables.camera
+    if tables.turntable:
+        return tuple(_turned(base, i * tables.turntable.degrees / tables.turntable.frames)
+                     for i in range(tables.turntable.frames))  # fmt: skip
+    cameras = []
+    for number, frame in enumerate(tables.frame):
+        try:
+            cameras.append(Camera.model_validate(base.model_dump() | frame.model_dump(exclude_none=True)))
+        except ValidationError as error:
+            lines = [_line(path, f"frame[{number}].{key.removeprefix('camera.')}", found, allowed)
+                     for e in error.errors(include_url=False)
+                     for key, found, allowed in _translate({**e, "loc": ("camera", *e["loc"])})]  # fmt: skip
+            raise SceneError("\n".join(lines)) from None
+    return tuple(cameras)
+
+
+def _turned(camera: Camera, degrees: float) -> Camera:
+    """The camera turned about the axis through `look_at` along `up`: Rodrigues' formula in float64."""
+    angle = math.radians(degrees % 360)
+    length = _length(camera.up)
+    axis = tuple(c / length for c in camera.up)
+    arm = tuple(e - a for e, a in zip(camera.eye, camera.look_at, strict=True))
+    along = sum(k * v for k, v in zip(axis, arm, strict=True)) * (1 - math.cos(angle))
+    side = _cross(axis, arm)
+    turned = (v * math.cos(angle) + s * math.sin(angle) + k * along for v, s, k in zip(arm, side, axis, strict=True))
+    eye = tuple(a + v for a, v in zip(camera.look_at, turned, strict=True))
+    return camera.model_copy(update={"eye": camera.eye if degrees % 360 == 0 else eye})
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -451,7 +518,8 @@ def _table_at(loc: tuple[str | int, ...]) -> type[_Table]:
         return _Tables
     if loc[0] == "surface":
         return _SURFACES[str(loc[2])]
-    return {"camera": Camera, "light": Light, "background": Background}[str(loc[0])]
+    tables = {"camera": Camera, "light": Light, "background": Background, "turntable": Turntable, "frame": Keyframe}
+    return tables[str(loc[0])]
 
 
 def _key(loc: tuple[str | int, ...]) -> str:

@@ -9,7 +9,25 @@ from .bound import bounded, zone_of
 from .carry import descend
 from .cells import subdivide
 from .formats import STEPS_MAX, ZONES
-from .item import AGAIN, DEPTH, DONE, ENTERS, FOLLOW, HIT, LEVEL, PAPER, PENDING, STATUS, STEPS, TMIN, TNEXT, B, C, T
+from .item import (
+    AGAIN,
+    DEPTH,
+    DONE,
+    ENTERS,
+    FIRST,
+    FOLLOW,
+    HIT,
+    LEVEL,
+    PAPER,
+    PENDING,
+    STATUS,
+    STEPS,
+    TMIN,
+    TNEXT,
+    B,
+    C,
+    T,
+)
 from .kernel import kernel, zeros
 from .normalize import norm_limit, normalize
 from .outside import outside_cells, outside_faces
@@ -90,7 +108,7 @@ def step(item, form, work, n1, steps, width, degree, general):
     if item[PAPER]:
         mask = paper(cells, excluded, degree, 1 << n1)
     elif degree == 1:
-        mask = bounded(cells, excluded, last, form, level, zone, n1)
+        mask = bounded(cells, excluded, last, form, level - item[FIRST], zone, n1)
     else:
         mask = certified(cells, nodes, excluded, last, degree, n1)
     item[STEPS] += 1

@@ -5,7 +5,6 @@
 
 module rdx_quartic_cover (
     input wire logic              clk_i,
-    input wire logic              en_i,
     input wire logic              quartic_i,
     input wire rdx_pkg::quad_t    quads_i  [9],
     input wire rdx_pkg::operand_t a_q      [3],
@@ -16,8 +15,8 @@ module rdx_quartic_cover (
   localparam int unsigned Drop = rdx_pkg::ProductDrop;
   localparam rdx_pkg::operand_t Large = rdx_pkg::operand_t'((36'sd1 << 35) - 1);
   for (genvar i = 0; i < 3; i++) begin : gen_operand
-    `RDX_COVER(rounded_up, en_i && quartic_i && quads_i[3+i][Shift-1])
-    `RDX_COVER(rounded_down, en_i && quartic_i && !quads_i[3+i][Shift-1] && quads_i[3+i][Shift-2:0] != '0)
+    `RDX_COVER(rounded_up, quartic_i && quads_i[3+i][Shift-1])
+    `RDX_COVER(rounded_down, quartic_i && !quads_i[3+i][Shift-1] && quads_i[3+i][Shift-2:0] != '0)
     `RDX_COVER(largest, a_q[i] == Large || b_q[i] == Large)
     `RDX_COVER(least, a_q[i] <= -Large || b_q[i] <= -Large)
     for (genvar s = 0; s < 4; s++) begin : gen_signs
@@ -29,9 +28,8 @@ module rdx_quartic_cover (
     `RDX_COVER(near_largest, form_o[i][63:61] == 3'b011)
     `RDX_COVER(near_least, form_o[i][63:61] == 3'b101)
   end
-  `RDX_COVER(no_product, en_i && !quartic_i)
-  `RDX_COVER(product, en_i && quartic_i)
-  `RDX_COVER(stalled, !en_i)
+  `RDX_COVER(no_product, !quartic_i)
+  `RDX_COVER(product, quartic_i)
 endmodule
 
 bind rdx_quartic rdx_quartic_cover u_cover (.*);

@@ -9,10 +9,10 @@ module rdx_select_cover #(
     localparam int unsigned J = 1 << N1
 ) (
     input wire logic          clk_i,
-    input wire logic [ J-1:0] excluded_i,
-    input wire logic [ J-1:0] possible_i,
-    input wire logic          last_i,
-    input wire logic          paper_i,
+    input wire logic [ J-1:0] excluded,
+    input wire logic [ J-1:0] possible,
+    input wire logic          last,
+    input wire logic          paper,
     input wire logic [ J-1:0] mixed,
     input wire logic [ J-1:0] changes,
     input wire logic          found_d,
@@ -22,8 +22,8 @@ module rdx_select_cover #(
 );
   localparam bit Certified = (Rules & rdx_pkg::RuleCertified) != 0;
   localparam bit Paper = (Rules & rdx_pkg::RulePaper) != 0;
-  wire by_paper = Paper && (paper_i || !Certified);
-  wire [J-1:0] left = ~excluded_i;
+  wire by_paper = Paper && (paper || !Certified);
+  wire [J-1:0] left = ~excluded;
 
   for (genvar j = 0; j < J; j++) begin : gen_cell
     `RDX_COVER(first, found_d && 32'(pick_d) == j)
@@ -36,18 +36,18 @@ module rdx_select_cover #(
   `RDX_COVER(all_excluded, left == '0)
   `RDX_COVER(some_excluded, left != '0 && left != '1)
   if (Certified) begin : gen_certified
-    `RDX_COVER(mixed_only, !by_paper && !last_i && (mixed & ~changes & left) != '0)
-    `RDX_COVER(possible_only, !by_paper && !last_i && (possible_i & ~mixed & left) != '0)
-    `RDX_COVER(last_change, !by_paper && last_i && (changes & left) != '0)
-    `RDX_COVER(last_mixed_is_none, !by_paper && last_i && (mixed & ~changes & left) != '0 && (changes & left) == '0)
-    `RDX_COVER(last_possible_is_none, !by_paper && last_i && (possible_i & left) != '0 && (changes & left) == '0)
+    `RDX_COVER(mixed_only, !by_paper && !last && (mixed & ~changes & left) != '0)
+    `RDX_COVER(possible_only, !by_paper && !last && (possible & ~mixed & left) != '0)
+    `RDX_COVER(last_change, !by_paper && last && (changes & left) != '0)
+    `RDX_COVER(last_mixed_is_none, !by_paper && last && (mixed & ~changes & left) != '0 && (changes & left) == '0)
+    `RDX_COVER(last_possibles_none, !by_paper && last && (possible & left) != '0 && (changes & left) == '0)
   end
   if (Paper) begin : gen_paper
     `RDX_COVER(case_1, by_paper && changes == '0)
     `RDX_COVER(case_1_all_excluded, by_paper && changes == '0 && left == '0)
     `RDX_COVER(case_2, by_paper && (changes & left) != '0)
     `RDX_COVER(case_2_all_excluded, by_paper && changes != '0 && (changes & left) == '0)
-    `RDX_COVER(last_level, by_paper && last_i)
+    `RDX_COVER(last_level, by_paper && last)
   end
 endmodule
 

@@ -15,17 +15,17 @@ module rdx_step_cover #(
     input wire logic              clk_i,
     input wire control_t          control_i,
     input wire control_t          control_o,
-    input wire control_t          chosen   [1],
+    input wire control_t          chosen,
     input wire logic     [ J-1:0] outside,
     input wire logic     [ J-1:0] possible,
-    input wire logic     [N1-1:0] first    [1],
-    input wire logic              found,
-    input wire logic              more,
-    input wire logic     [N1-1:0] pick
+    input wire logic     [N1-1:0] first,
+    input wire logic              was_found,
+    input wire logic              was_more,
+    input wire logic     [N1-1:0] was_pick
 );
   import rdx_pkg::*;
 
-  wire run = chosen[0].status == Run;
+  wire run = chosen.status == Run;
   for (genvar s = 0; s <= 4; s++) begin : gen_status
     `RDX_COVER(status_in, control_i.status == status_e'(s))
     `RDX_COVER(status_out, control_o.status == status_e'(s))
@@ -34,16 +34,16 @@ module rdx_step_cover #(
     `RDX_COVER(level, control_i.status == Run && control_i.level == 5'(k))
   end
   for (genvar j = 0; j < J; j++) begin : gen_cell
-    `RDX_COVER(picked, run && found && 32'(pick) == j)
-    `RDX_COVER(starts_there, 32'(first[0]) == j)
+    `RDX_COVER(picked, run && was_found && 32'(was_pick) == j)
+    `RDX_COVER(starts_there, 32'(first) == j)
   end
   for (genvar p = 0; p < 2; p++) begin : gen_rule
     if (Rules[p]) begin : gen_built
-      `RDX_COVER(goes_on, run && found && (Rules != 3 || chosen[0].paper == p))
-      `RDX_COVER(dead_end, run && !found && (Rules != 3 || chosen[0].paper == p))
+      `RDX_COVER(goes_on, run && was_found && (Rules != 3 || chosen.paper == p))
+      `RDX_COVER(dead_end, run && !was_found && (Rules != 3 || chosen.paper == p))
     end
   end
-  `RDX_COVER(pending, run && found && more)
+  `RDX_COVER(pending, run && was_found && was_more)
   `RDX_COVER(some_outside, outside != '0 && !(&outside))
   `RDX_COVER(all_outside, &outside)
   if (D == 1) begin : gen_bounds

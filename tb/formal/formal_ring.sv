@@ -51,6 +51,7 @@ module formal_ring #(
       .clk_i,
       .rst_ni,
       .form_i('0),
+      .modes_i(ModesDefault),
       .ray_valid_i,
       .ray_ready_o(ray_ready),
       .ray_i,

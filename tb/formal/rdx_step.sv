@@ -20,14 +20,15 @@ module rdx_step #(
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic           [3:0] phase_i,
-    input  wire rdx_pkg::form_t       form_i,
-    input  wire control_t             control_i,
-    input  wire segment_t             segment_i,
-    output control_t                  control_o,
-    output segment_t                  segment_o
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic            [3:0] phase_i,
+    input  wire rdx_pkg::form_t        form_i,
+    input  wire rdx_pkg::modes_t       modes_i,
+    input  wire control_t              control_i,
+    input  wire segment_t              segment_i,
+    output control_t                   control_o,
+    output segment_t                   segment_o
 );
   import rdx_pkg::*;
 

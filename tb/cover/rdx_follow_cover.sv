@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functional bins of rdx_carry.
+// Functional bins of rdx_follow.
 `default_nettype none
 `include "rdx_cover.svh"
 
-module rdx_carry_cover #(
+module rdx_follow_cover #(
     parameter int unsigned N1 = 3
 ) (
     input wire logic          clk_i,
@@ -14,6 +14,6 @@ module rdx_carry_cover #(
   end
 endmodule
 
-bind rdx_carry rdx_carry_cover #(.N1(N1)) u_cover (.*);
+bind rdx_follow rdx_follow_cover #(.N1(N1)) u_cover (.*);
 
 `default_nettype wire
