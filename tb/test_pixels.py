@@ -138,9 +138,10 @@ async def reset_begins_a_frame(dut):
 
 @cocotb.test
 async def largest_frames(dut):
-    """The widest and the highest frame there can be."""
+    """The widest frame there can be; with one pixel in a beat the highest, too."""
     most = 1 << PIXEL_WIDTH
-    await frames(dut, bench.rng(), [(most, 1), (1, most)], 0.0, 0.0, 0.5, latency=5)
+    height = most if bench.parameter(dut, "Pixels") == 1 else 3
+    await frames(dut, bench.rng(), [(most, 1), (1, height)], 0.0, 0.0, 0.5, latency=3)
 
 
 SETS = [dict(Pixels=1, Depth=16), dict(Pixels=2, Depth=8), dict(Pixels=4, Depth=32)]
@@ -148,6 +149,5 @@ SETS = [dict(Pixels=1, Depth=16), dict(Pixels=2, Depth=8), dict(Pixels=4, Depth=
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_pixels(parameters):
-    """One, two and four pixels in a beat; with one the largest frames, too."""
-    checks = ["keeps_beats", "fills_the_queue", "reset_begins_a_frame"]
-    bench.run(__name__, "rdx_pixels", parameters, None if parameters["Pixels"] == 1 else checks)
+    """One, two and four pixels in a beat."""
+    bench.run(__name__, "rdx_pixels", parameters)
