@@ -137,6 +137,17 @@ def test_file_list_is_complete():
         assert re.search(rf"^(module|package) {path.stem}\b", path.read_text(), re.M), path.name
 
 
+def test_fusesoc_core_is_complete():
+    """raydix.core names the files of both lists in their order, and every included file."""
+    text = (ROOT / "raydix.core").read_text()
+    listed = re.findall(r"^ +- ((?:rtl|build)/[\w/]+\.sv)$", text, re.M)
+    assert [ROOT / name for name in listed] == top_sources()
+    included = re.findall(r"- (rtl/\w+\.svh): \{is_include_file: true\}", text)
+    assert [ROOT / name for name in included] == sorted(RTL.glob("*.svh"))
+    names = re.findall(r"^  (\w+): \{datatype: int, paramtype: vlogparam\}", text, re.M)
+    assert names == list(top_parameters(Config()))
+
+
 def test_modules_are_short():
     """A module is below 200 lines."""
     long = {p.name: n for p in written() if (n := len(p.read_text().splitlines())) >= 200}
