@@ -116,13 +116,13 @@ def test_smallest_processor():
     """What a scene needs: its surfaces, its line, a layer where all is opaque, and more where not."""
     assert frame_parameters(spirals.load("torus", 50, 37), 4) == dict(surfaces=1, layers=1, max_width=52, beat=4)
     assert frame_parameters(spirals.load("glass", 50, 37))["layers"] == 7
-    assert frame_parameters(spirals.load("gallery", 50, 37))["surfaces"] == 9
+    assert frame_parameters(spirals.load("gallery", 50, 37))["surfaces"] == 7
 
 
 def test_what_does_not_fit_is_refused():
     """A line too long, too many surfaces, frames of different sizes: a message, and no simulation."""
     loaded, compiled, _ = golden("gallery", (50, 37), ALGEBRAIC)
-    for config in (ALGEBRAIC.with_(max_width=48), ALGEBRAIC.with_(surfaces=8)):
+    for config in (ALGEBRAIC.with_(max_width=48), ALGEBRAIC.with_(surfaces=6)):
         with pytest.raises(SceneError, match="allowed: up to"):
             run_frames([(loaded, compiled)], config)
     with pytest.raises(RtlError, match="allowed: 50×37"):

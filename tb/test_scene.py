@@ -51,7 +51,7 @@ def surface(body: str) -> str:
 BAD = {
     # unknown keys and types
     "unknown table": (CAMERA + TORUS + "[lights]\n", "lights", "unknown key",
-                      "camera, light, background, surface (did you mean light?)"),
+                      "camera, light, background, turntable, frame, surface (did you mean light?)"),
     "unknown camera key": (CAMERA + "vfow = 3\n" + TORUS, "camera.vfow", "unknown key",
                            "eye, look_at, up, vfov, width, height (did you mean vfov?)"),
     "unknown light key": ("[light]\npower = 3\n" + CAMERA + TORUS, "light.power", "unknown key",
@@ -62,7 +62,7 @@ BAD = {
     "key of two lines": (CAMERA + TORUS + '"a\\nb" = 1\n', S0 + ".'a\\nb'", "unknown key",
                          "center, rotation, axis, angle, scale, clip, color, opacity, type, R, r"),
     "name is no key": ("name = 'x'\n" + CAMERA + TORUS, "name", "unknown key",
-                       "camera, light, background, surface"),
+                       "camera, light, background, turntable, frame, surface (did you mean frame?)"),
     "unknown type": (surface("type = 'torsu'"), "surface[0].type", "unknown type 'torsu'",
                      TYPES + " (did you mean torus?)"),
     "type like no other": (surface("type = 'cube'"), "surface[0].type", "unknown type 'cube'", TYPES),

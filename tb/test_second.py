@@ -93,7 +93,7 @@ def test_missing_reset_is_found(icarus, monkeypatch, tmp_path, capfd, module, ol
 @pytest.mark.parametrize(
     ("arguments", "path", "line"),
     [
-        (["nonsense", "ring"], os.environ["PATH"], "second: found nonsense; allowed: algebraic, "),
+        (["nonsense", "ring"], os.environ["PATH"], "second: found nonsense; allowed: advance, algebraic, "),
         (["register"], "/nonexistent", f"second: {second.MISSING}\n"),
     ],
     ids=["unknown module", "no Icarus"],
