@@ -171,7 +171,10 @@ def test_weak_test_lets_mutants_through(tmp_path, monkeypatch):
 
 def test_errors(monkeypatch, capsys):
     """A module that is not there, and options that do not go together: a clear text and exit status 2."""
-    for arguments, text in ((["torus"], "found torus; allowed: algebraic"), (["--mutant", "1"], "exactly one module")):
+    for arguments, text in (
+        (["torus"], "found torus; allowed: advance algebraic"),
+        (["--mutant", "1"], "exactly one module"),
+    ):
         monkeypatch.setattr(sys, "argv", ["mutants.py", *arguments])
         with pytest.raises(SystemExit) as ended:
             mutants_main()
