@@ -79,6 +79,7 @@ def files(proof, change=None):
     unused = {stem for stem in harnesses if stem in paths and stem not in proof.stand_ins}
     paths |= {stem: path for stem, path in harnesses.items() if stem not in unused}
     texts = {stem: path.read_text() for stem, path in paths.items()}
+    headers = {name.removesuffix(".svh"): text for name, text in included().items()}
     for name, old, new in [*proof.replace, *([change] if change else [])]:
         if name not in texts or texts[name].count(old) != 1:
             raise SynthError(f"{name}: to be replaced, but not there exactly once: {old!r}")
@@ -86,8 +87,9 @@ def files(proof, change=None):
     found, new = set(), {proof.top}
     while new:
         found |= new
-        code = " ".join(re.sub(r"//.*", "", texts[name]) for name in new)
-        new = (set(re.findall(r"\b(?:rdx|formal)_\w+\b", code)) & texts.keys()) - found
+        code = " ".join(re.sub(r"//.*", "", (headers | texts)[name]) for name in new)
+        named = set(re.findall(r"\b(?:rdx|formal)_\w+\b", code)) & (headers.keys() | texts.keys())
+        new = named - found
     return {f"{stem}.sv": text for stem, text in texts.items() if stem in found}
 
 
