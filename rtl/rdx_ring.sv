@@ -130,7 +130,7 @@ module rdx_ring #(
   );
   assign {back, back_segment} = padded[0];
   wire more_roots = back.roots > 1 && back.pending && !(&back.steps);
-  wire linger = !modes_i.early && back.status == Done && back.level < 5'(K - 1);
+  wire linger = !modes_i.early && back.status == Done && back.level != 5'(K - 1);
   wire give = filled && (back.status == Hit || (back.status == Done && !linger));
   assign record = '{
           surface: first.surface,
