@@ -70,7 +70,7 @@ def test_normals_face_the_viewer(rendered):
 
 
 def test_exr_and_png_agree_with_npz(rendered):
-    """EXR holds linear colour, depth, normal and surface as named channels; PNG holds rgb."""
+    """EXR holds linear colour, depth, normal and surface as named channels; PNG holds rgb, encoded by a table."""
     data = np.load(rendered / "torus.npz")
     exr = oiio.ImageInput.open(str(rendered / "torus.exr"))
     names, pixels = exr.spec().channelnames, exr.read_image("float")
@@ -82,7 +82,7 @@ def test_exr_and_png_agree_with_npz(rendered):
         assert (plane[f"normal.{axis}"] == data["normal"][..., i]).all()
     linear = np.stack([plane[c] for c in "RGB"], axis=2).astype(float)
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
-    assert (np.rint(encoded * 255) == data["rgb"]).all()
+    assert np.abs(encoded * 255 - data["rgb"]).max() <= 0.61
     png = oiio.ImageInput.open(str(rendered / "torus.png"))
     assert (png.read_image("uint8") == data["rgb"]).all()
 
@@ -97,7 +97,7 @@ def test_shade_is_lambert_plus_ambient(rendered):
     hit = data["surface"] >= 0
     level = np.where(hit, 0.1 + 0.9 * np.maximum(0, data["normal"] @ light), 0)
     for channel, colour in zip("RGB", (0.9, 0.5, 0.2), strict=True):
-        assert np.allclose(pixels[channel], level * colour, atol=1e-6)
+        assert np.allclose(pixels[channel], level * colour, atol=5e-4)  # fixed point, docs/processor.md
 
 
 def test_compare(rendered, tmp_path, capsys):

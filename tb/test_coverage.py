@@ -199,6 +199,7 @@ def test_exit_status(small, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(coverpoints, "RESULTS", results[0].parent)
     monkeypatch.setattr(coverpoints, "WAIVERS", every)
     monkeypatch.setattr(command, "sources", lambda: [folder / "rdx_small.sv"])
+    monkeypatch.setattr(command, "top_modules", list)
     monkeypatch.setattr(command, "run_tests", lambda *_: [result.name for result in results])
     monkeypatch.setattr("sys.argv", ["cover.py", "small"])
     every.write_text("waiver = []\n")
