@@ -27,7 +27,7 @@ def compiled_frame(scene, rule="certified"):
 def record(words):
     """One record as a dictionary; ``point`` is a list of three."""
     words = [bench.signed(w, 32) if i in (6, 7, 8, 9) else w for i, w in enumerate(words)]
-    return dict(zip(NAMES, [*words[:7], words[7:10], words[10]], strict=True))
+    return dict(zip(NAMES, [*words[:7], words[7:10], *words[10:]], strict=True))
 
 
 def compare(frame, received):
