@@ -8,7 +8,7 @@
 //            surface i.
 // Timing     fault_o two clocks after the last word was asked for.
 // Reset      clear_i: no error.
-// Model      model/raydix/processor.py (audit)
+// Model      none: the tests repeat it (tb/test_processor.py)
 `default_nettype none
 
 module rdx_audit #(

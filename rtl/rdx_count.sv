@@ -5,7 +5,7 @@
 // Overflow   wraps.
 // Timing     counters_o follows by two clocks.
 // Reset      none: clear_i.
-// Model      model/raydix/processor.py (expected counts)
+// Model      none: the tests repeat it (tb/test_processor.py)
 `default_nettype none
 
 module rdx_count (

@@ -8,7 +8,7 @@
 //            pixel stream: see rdx_pixels. tap_o: each record of the rings, for test benches.
 // Timing     start_i while ready_o = 1 begins a frame. done_o: its last pixel has left; error_o: it was not begun.
 // Reset      control only; then ready_o rises when the layers are swept.
-// Model      model/raydix/processor.py
+// Model      model/raydix/render.py (render_golden)
 `default_nettype none
 
 module rdx_render #(
