@@ -29,6 +29,7 @@ rdx_settle.sv
 rdx_step.sv
 rdx_slots.sv
 rdx_ring.sv
+rdx_rings.sv
 rdx_fdiff.sv
 rdx_form.sv
 rdx_raster.sv

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of algebraic surfaces to hits: control points, then the ring.
+// Rays of algebraic surfaces to hits: control points, then the rings.
 //
-// Formats    as rdx_product and rdx_ring.
-// Timing     as rdx_product and rdx_ring.
+// Formats    as rdx_product and rdx_rings.
+// Timing     as rdx_product and rdx_rings.
 // Reset      control only.
 // Model      model/raydix/core.py
 `default_nettype none
@@ -14,6 +14,7 @@ module rdx_algebraic #(
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
+    parameter int unsigned Rings = 1,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter bit Sift = 1'b0,  // rays that cannot have a hit do not enter the ring
@@ -36,7 +37,7 @@ module rdx_algebraic #(
     input  wire logic                  boxes_i,
     output logic                       rootless_o,
     output logic                       beyond_o,
-    output logic                       sifted_row_o
+    output rdx_pkg::line_t             sifted_row_o
 );
   import rdx_pkg::*;
 
@@ -65,7 +66,8 @@ module rdx_algebraic #(
   if (Sift) begin : gen_sift
     rdx_sift #(
         .W(W),
-        .D(D)
+        .D(D),
+        .Levels(N1)
     ) u_sift (
         .clk_i,
         .rst_ni,
@@ -91,15 +93,16 @@ module rdx_algebraic #(
     assign {rootless_o, beyond_o, sifted_row_o} = '0;
     wire unused = &{1'b0, rootless_i, boxes_i};
   end
-  rdx_ring #(
+  rdx_rings #(
       .N1(N1),
       .K(K),
       .W(W),
       .D(D),
       .U(U),
+      .Rings(Rings),
       .Rules(Rules),
       .HalveStages(HalveStages)
-  ) u_ring (
+  ) u_rings (
       .clk_i,
       .rst_ni,
       .form_i('0),

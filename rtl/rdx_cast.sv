@@ -20,7 +20,9 @@ module rdx_cast #(
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
-    parameter int unsigned VectorUnits = 1
+    parameter int unsigned VectorUnits = 1,
+    parameter int unsigned Rings = 1,
+    parameter int unsigned VectorRings = 1
 ) (
     input  wire logic                     clk_i,
     input  wire logic                     rst_ni,
@@ -32,11 +34,11 @@ module rdx_cast #(
     output logic                          vector_idle_o,
     output logic                          look_o,
     output rdx_pkg::pixel_t               look_x_o,
-    output logic                          look_row_o,
+    output rdx_pkg::line_t                look_row_o,
     input  wire logic                     limit_valid_i,
     input  wire rdx_pkg::depth_t          limit_i,
     output logic                    [2:0] skipped_o,
-    output logic                    [2:0] skipped_row_o,
+    output rdx_pkg::line_t          [2:0] skipped_row_o,
     output logic                    [5:0] steps_o,
     output logic                          hit_valid_o,
     input  wire logic                     hit_ready_i,
@@ -86,13 +88,14 @@ module rdx_cast #(
   );
 
   if (D > 0) begin : gen_algebraic
-    logic sifted_row;
+    line_t sifted_row;
     rdx_algebraic #(
         .N1(N1),
         .K(K),
         .W(W),
         .D(D),
         .U(U),
+        .Rings(Rings),
         .Rules(Rules),
         .Sift(1'b1)
     ) u_algebraic (
@@ -131,6 +134,7 @@ module rdx_cast #(
         .N1(N1),
         .K(K),
         .U(VectorUnits),
+        .Rings(VectorRings),
         .Rules(Rules),
         .Lanes(Lanes),
         .General(Vecsum != VecsumHelix)

@@ -21,7 +21,9 @@ module rdx_core #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
-    parameter int unsigned VectorUnits = 1
+    parameter int unsigned VectorUnits = 1,
+    parameter int unsigned Rings = 1,
+    parameter int unsigned VectorRings = 1
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -79,13 +81,15 @@ module rdx_core #(
 
   if (D > 0) begin : gen_algebraic
     logic [5:0] steps;
-    logic [2:0] sifted;
+    logic [1:0] sifted;
+    line_t sifted_row;
     rdx_algebraic #(
         .N1(N1),
         .K(K),
         .W(W),
         .D(D),
         .U(U),
+        .Rings(Rings),
         .Rules(Rules),
         .HalveStages(HalveStages)
     ) u_algebraic (
@@ -106,9 +110,9 @@ module rdx_core #(
         .boxes_i(1'b0),
         .rootless_o(sifted[0]),
         .beyond_o(sifted[1]),
-        .sifted_row_o(sifted[2])
+        .sifted_row_o(sifted_row)
     );
-    wire unused = &{1'b0, steps, sifted};
+    wire unused = &{1'b0, steps, sifted, sifted_row};
   end else begin : gen_no_algebraic
     assign ready[0] = 1'b0;
     assign hit_valid[0] = 1'b0;
@@ -122,6 +126,7 @@ module rdx_core #(
         .N1(N1),
         .K(K),
         .U(VectorUnits),
+        .Rings(VectorRings),
         .Rules(Rules),
         .Lanes(Lanes),
         .General(Vecsum != VecsumHelix)

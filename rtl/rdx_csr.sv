@@ -26,6 +26,8 @@ module rdx_csr
     parameter int unsigned Vecsum = VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned Rings = 1,
+    parameter int unsigned VectorRings = 1,
     parameter int unsigned Surfaces = 64,
     parameter int unsigned Layers = 4,
     parameter int unsigned MaxWidth = 1920,
@@ -125,18 +127,10 @@ module rdx_csr
       .Surfaces(Surfaces),
       .MaxWidth(MaxWidth)
   ) u_check (
-      .clk_i,
-      .rst_ni,
+      .*,
       .start_i  (regs.CONTROL.start.value),
       .request_i(request),
-      .start_valid_o,
-      .start_ready_i,
-      .frame_o,
-      .done_i,
       .done_o   (done),
-      .error_valid_i,
-      .error_code_i,
-      .error_slot_i,
       .known_i  (known && !regs.IRQ_STATUS.error.swmod),
       .error_o  (error),
       .code_o   (code),
@@ -164,6 +158,7 @@ module rdx_csr
   always_comb begin
     to_regs.PARAMETERS_SEARCH = '{'{8'(N1)}, '{8'(K)}, '{8'(U)}, '{8'(W)}};  // fields in the order of rdx_csr.rdl
     to_regs.PARAMETERS_KINDS = '{'{8'(D)}, '{4'(Vecsum)}, '{4'(Rules)}, '{8'(Lanes)}, '{8'(VectorUnits)}};
+    to_regs.PARAMETERS_RINGS = '{'{8'(Rings)}, '{8'(VectorRings)}};
     to_regs.PARAMETERS_FRAME = '{'{8'(Surfaces)}, '{8'(Layers)}, '{13'(MaxWidth)}, '{3'(Pixels)}};
     to_regs.STATUS = '{busy: '{busy_i}, queued: '{start_valid_o}, done: '{done}, error: '{known}};
     to_regs.IRQ_STATUS = '{done: '{done_i}, error: '{error}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the layers of finished lines from left to right and gives them to the shading, a layer a clock.
 //
-// A group of pixels without any hit takes one clock. After a reset every pixel of both lines is read once, which empties it.
+// A group of pixels without any hit takes one clock. After a reset every pixel of all lines is read once, which empties it.
 //
 // Formats    last_group_i: number of the line's last group. layer_o: see rdx_pkg::layer_t. whole_o: layer_o stands for all pixels of
 //            the group, none of which was hit.
@@ -15,6 +15,8 @@ module rdx_drain #(
     parameter int unsigned MaxWidth = 2048,
     parameter int unsigned Pixels = 1,
     parameter int unsigned Layers = 1,
+    parameter int unsigned Lines = 2,
+    localparam type index_t = logic [$clog2(Lines)-1:0],
     localparam int unsigned Groups = MaxWidth / Pixels,
     localparam int unsigned GroupWidth = $clog2(Groups),
     localparam type count_t = logic [$clog2(Layers+1)-1:0]
@@ -23,11 +25,11 @@ module rdx_drain #(
     input wire logic rst_ni,
     output logic ready_o,  // swept
     input wire logic [GroupWidth-1:0] last_group_i,
-    input wire logic [1:0] line_i,  // finished lines; index: lowest bit of the row
+    input wire logic [Lines-1:0] line_i,  // finished lines; index: lowest bits of the row
     input wire logic start_i,  // the next line is row 0
-    output logic [1:0] free_o,  // the line has been read
+    output logic [Lines-1:0] free_o,  // the line has been read
     output logic read_o,
-    output logic read_row_o,
+    output index_t read_row_o,
     output logic [GroupWidth-1:0] read_group_o,
     input wire count_t count_i[Pixels],
     input wire rdx_pkg::entry_t entries_i[Pixels][Layers],
@@ -45,7 +47,8 @@ module rdx_drain #(
   localparam type group_t = logic [Pixels*($bits(count_t)+Layers*$bits(entry_t))-1:0];
 
   // ---- reading ----
-  logic sweep_q, row_q;
+  logic sweep_q;
+  index_t row_q;
   logic [GroupWidth-1:0] group_q;
   logic [2:0] ahead_q;  // groups asked for and not yet given
   logic popped;
@@ -58,7 +61,7 @@ module rdx_drain #(
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       sweep_q <= 1'b1;
-      row_q   <= 1'b0;
+      row_q   <= '0;
       group_q <= '0;
       ahead_q <= '0;
       free_o  <= '0;
@@ -67,12 +70,12 @@ module rdx_drain #(
       if (ask) begin
         group_q <= line_end ? '0 : group_q + 1'b1;
         if (line_end) begin
-          row_q <= !row_q;
-          if (row_q) sweep_q <= 1'b0;
+          row_q <= row_q + 1'b1;
+          if (&row_q) sweep_q <= 1'b0;
           if (!sweep_q) free_o[row_q] <= 1'b1;
         end
       end
-      if (start_i) row_q <= 1'b0;
+      if (start_i) row_q <= '0;
       ahead_q <= ahead_q + 3'(ask && !sweep_q) - 3'(popped);
     end
   end

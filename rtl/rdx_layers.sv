@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest hits of each pixel of two lines: one is filled while the other is read and emptied.
+// The nearest hits of each pixel of some lines: one is filled while another is read and emptied.
 //
 // A hit is read with the layers of its pixel, takes its place among them (rdx_insert), and all are written back. Each line has a
 // memory of its own for each pixel of a beat of the pixel stream, so a whole beat is read at once.
@@ -18,9 +18,11 @@ module rdx_layers #(
     parameter int unsigned MaxWidth = 2048,
     parameter int unsigned Pixels = 1,
     parameter int unsigned Layers = 1,
+    parameter int unsigned Lines = 2,  // 2 or 4
     parameter bit Limit = 1'b1,  // the nearest opaque hit is asked for
     localparam int unsigned Groups = MaxWidth / Pixels,
     localparam int unsigned GroupWidth = $clog2(Groups),
+    localparam type index_t = logic [$clog2(Lines)-1:0],
     localparam type count_t = logic [$clog2(Layers+1)-1:0]
 ) (
     input  wire logic                             clk_i,
@@ -30,30 +32,30 @@ module rdx_layers #(
     output logic                                  hit_ready_o,
     input  wire rdx_pkg::hit_t                    hit_i,
     output logic                                  last_o,
-    output logic                                  last_row_o,
+    output rdx_pkg::line_t                        last_row_o,
     output logic                                  lost_o,
     input  wire logic                             read_i,
-    input  wire logic                             read_row_i,
+    input  wire index_t                           read_row_i,
     input  wire logic            [GroupWidth-1:0] read_group_i,
     output count_t                                count_o      [Pixels],
     output rdx_pkg::entry_t                       entries_o    [Pixels][Layers],
     input  wire logic                             look_i,
     input  wire rdx_pkg::pixel_t                  look_x_i,
-    input  wire logic                             look_row_i,
+    input  wire rdx_pkg::line_t                   look_row_i,
     output logic                                  limit_valid_o,
     output rdx_pkg::depth_t                       limit_o
 );
   import rdx_pkg::*;
 
   localparam int unsigned PixelBits = $clog2(Pixels);
-  localparam int unsigned Banks = 2 * Pixels;  // bank row * Pixels + pixel
+  localparam int unsigned Banks = Lines * Pixels;  // bank row * Pixels + pixel
   localparam type word_t = logic [$bits(count_t)+Layers*$bits(entry_t)-1:0];
   localparam type bank_t = logic [$clog2(Banks)-1:0];
   if (Pixels != 1 << PixelBits || MaxWidth != Groups * Pixels) begin : gen_illegal
     $fatal(1, "rdx_layers: Pixels = %0d, MaxWidth = %0d; allowed: a power of two, a multiple of it", Pixels, MaxWidth);
   end
 
-  function automatic bank_t bank_of(logic row, pixel_t x);
+  function automatic bank_t bank_of(index_t row, pixel_t x);
     return bank_t'(32'(row) * Pixels + 32'(x) % Pixels);
   endfunction
   function automatic logic [GroupWidth-1:0] group_of(pixel_t x);
@@ -64,9 +66,9 @@ module rdx_layers #(
   logic ask_valid_q, read_valid_q, write_valid_q;
   hit_t ask_q, read_q, write_q;
   wire hazard = hit_i.hit && (
-      (ask_valid_q && ask_q.hit && ask_q.x == hit_i.x && ask_q.y[0] == hit_i.y[0]) ||
-      (read_valid_q && read_q.hit && read_q.x == hit_i.x && read_q.y[0] == hit_i.y[0]) ||
-      (write_valid_q && write_q.hit && write_q.x == hit_i.x && write_q.y[0] == hit_i.y[0]));
+      (ask_valid_q && ask_q.hit && ask_q.x == hit_i.x && ask_q.y[1:0] == hit_i.y[1:0]) ||
+      (read_valid_q && read_q.hit && read_q.x == hit_i.x && read_q.y[1:0] == hit_i.y[1:0]) ||
+      (write_valid_q && write_q.hit && write_q.x == hit_i.x && write_q.y[1:0] == hit_i.y[1:0]));
   assign hit_ready_o = !hazard;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {ask_valid_q, read_valid_q, write_valid_q} <= '0;
@@ -82,7 +84,8 @@ module rdx_layers #(
   word_t words[Banks], words_q[Banks];
   word_t write_word_q;
   logic [GroupWidth-1:0] clear_group_q;
-  logic clear_q, clear_row_q, clear_row_qq;
+  logic clear_q;
+  index_t clear_row_q, clear_row_qq;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) clear_q <= 1'b0;
     else clear_q <= read_i;
@@ -93,10 +96,10 @@ module rdx_layers #(
     clear_group_q <= read_group_i;
   end
   for (genvar b = 0; b < Banks; b++) begin : gen_bank
-    localparam bit Row = b >= Pixels;
+    localparam index_t Row = index_t'(b / Pixels);
     wire reading = read_i && read_row_i == Row;
     wire clearing = clear_q && clear_row_q == Row;
-    wire writing = write_valid_q && write_q.hit && bank_of(write_q.y[0], write_q.x) == bank_t'(b);
+    wire writing = write_valid_q && write_q.hit && bank_of(index_t'(write_q.y), write_q.x) == bank_t'(b);
     word_t memory[Groups];
     always_ff @(posedge clk_i) begin
       words[b] <= memory[reading?read_group_i : group_of(hit_i.x)];
@@ -111,7 +114,7 @@ module rdx_layers #(
   entry_t entries[Layers], entries_d[Layers];
   logic [Layers*$bits(entry_t)-1:0] packed_entries;
   logic lost;
-  wire word_t chosen = words_q[bank_of(read_q.y[0], read_q.x)];
+  wire word_t chosen = words_q[bank_of(index_t'(read_q.y), read_q.x)];
   always_comb begin
     count = chosen[Layers*$bits(entry_t)+:$bits(count_t)];
     for (int unsigned i = 0; i < Layers; i++) entries[i] = chosen[i*$bits(entry_t)+:$bits(entry_t)];
@@ -143,12 +146,12 @@ module rdx_layers #(
     lost_o <= lost && read_valid_q && read_q.hit;
   end
   assign last_o = write_valid_q && write_q.last;
-  assign last_row_o = write_q.y[0];
+  assign last_row_o = write_q.y[1:0];
   wire unused_hit = &{1'b0, write_q};
 
   always_comb begin
     for (int unsigned p = 0; p < Pixels; p++) begin
-      automatic word_t word = words_q[(clear_row_qq?Pixels : 0)+p];
+      automatic word_t word = words_q[32'(clear_row_qq)*Pixels+p];
       count_o[p] = word[Layers*$bits(entry_t)+:$bits(count_t)];
       for (int unsigned i = 0; i < Layers; i++) entries_o[p][i] = word[i*$bits(entry_t)+:$bits(entry_t)];
     end
@@ -172,16 +175,16 @@ module rdx_layers #(
       end
     end
     for (genvar b = 0; b < Banks; b++) begin : gen_bank
-      localparam bit Row = b >= Pixels;
+      localparam index_t Row = index_t'(b / Pixels);
       wire clearing = clear_q && clear_row_q == Row;
-      wire writing = write_valid_q && write_q.hit && bank_of(write_q.y[0], write_q.x) == bank_t'(b);
+      wire writing = write_valid_q && write_q.hit && bank_of(index_t'(write_q.y), write_q.x) == bank_t'(b);
       limit_t memory[Groups];
       always_ff @(posedge clk_i) begin
         if (look_i) limits[b] <= memory[group_of(look_x_i)];
         if (clearing || writing) memory[clearing?clear_group_q : group_of(write_q.x)] <= clearing ? '0 : limit_d;
       end
     end
-    always_ff @(posedge clk_i) if (look_i) look_q <= bank_of(look_row_i, look_x_i);
+    always_ff @(posedge clk_i) if (look_i) look_q <= bank_of(index_t'(look_row_i), look_x_i);
     assign limit_valid_o = limits[look_q].valid;
     assign limit_o = limits[look_q].depth;
   end else begin : gen_no_limit

@@ -12,6 +12,7 @@ module rdx_lines #(
     parameter int unsigned MaxWidth = 2048,
     parameter int unsigned Pixels = 1,
     parameter int unsigned Layers = 1,
+    parameter int unsigned Lines = 2,
     parameter bit Limit = 1'b1
 ) (
     input  wire logic                   clk_i,
@@ -20,20 +21,20 @@ module rdx_lines #(
     input  wire logic                   start_i,
     input  wire rdx_pkg::pixel_t        last_x_i,
     input  wire logic            [63:0] opaque_i,
-    input  wire logic                   row_i,          // lowest bit of the line that is sent
+    input  wire rdx_pkg::line_t         row_i,          // the line that is sent
     output logic                        free_o,         // its layers are empty
     input  wire logic                   add_i,
     input  wire rdx_pkg::pixel_t        add_count_i,
     input  wire logic                   line_end_i,
     input  wire logic            [ 2:0] skipped_i,
-    input  wire logic            [ 2:0] skipped_row_i,
+    input  wire rdx_pkg::line_t  [ 2:0] skipped_row_i,
     input  wire logic                   hit_valid_i,
     output logic                        hit_ready_o,
     input  wire rdx_pkg::hit_t          hit_i,
     output logic                        lost_o,
     input  wire logic                   look_i,
     input  wire rdx_pkg::pixel_t        look_x_i,
-    input  wire logic                   look_row_i,
+    input  wire rdx_pkg::line_t         look_row_i,
     output logic                        limit_valid_o,
     output rdx_pkg::depth_t             limit_o,
     input  wire logic                   room_i,
@@ -47,8 +48,11 @@ module rdx_lines #(
   localparam int unsigned GroupWidth = $clog2(MaxWidth / Pixels);
   localparam type count_t = logic [$clog2(Layers+1)-1:0];
 
-  logic last, last_row, read, read_row;
-  logic [1:0] zero, emptied, sent_q;
+  localparam type index_t = logic [$clog2(Lines)-1:0];
+  logic last, read;
+  line_t  last_row;
+  index_t read_row;
+  logic [Lines-1:0] zero, emptied, sent_q;
   logic [GroupWidth-1:0] read_group;
   count_t counts[Pixels];
   entry_t entries[Pixels][Layers];
@@ -58,12 +62,13 @@ module rdx_lines #(
       sent_q <= '0;
     end else begin
       sent_q <= sent_q & ~emptied;
-      if (line_end_i) sent_q[row_i] <= 1'b1;
+      if (line_end_i) sent_q[index_t'(row_i)] <= 1'b1;
     end
   end
-  assign free_o = !sent_q[row_i];
+  assign free_o = !sent_q[index_t'(row_i)];
 
   rdx_tally #(
+      .Lines(Lines),
       .Verdicts(4)
   ) u_tally (
       .clk_i,
@@ -79,6 +84,7 @@ module rdx_lines #(
       .MaxWidth(MaxWidth),
       .Pixels(Pixels),
       .Layers(Layers),
+      .Lines(Lines),
       .Limit(Limit)
   ) u_layers (
       .clk_i,
@@ -104,7 +110,8 @@ module rdx_lines #(
   rdx_drain #(
       .MaxWidth(MaxWidth),
       .Pixels  (Pixels),
-      .Layers  (Layers)
+      .Layers  (Layers),
+      .Lines   (Lines)
   ) u_drain (
       .clk_i,
       .rst_ni,

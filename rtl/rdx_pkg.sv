@@ -68,6 +68,7 @@ package rdx_pkg;
   typedef logic signed [DepthWidth-1:0] depth_t;
   typedef logic signed [QuadAccWidth-1:0] quad_t;
   typedef logic [PixelWidth-1:0] pixel_t;
+  typedef logic [1:0] line_t;  // lowest bits of a row: which of the lines at work
   typedef logic [SurfaceWidth-1:0] surface_t;
   typedef logic [RootsWidth-1:0] roots_t;
   typedef logic [BoxWidth-1:0] box_t;

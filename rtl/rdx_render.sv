@@ -21,6 +21,8 @@ module rdx_render #(
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned Rings = 1,
+    parameter int unsigned VectorRings = 1,
     parameter int unsigned Surfaces = 64,
     parameter int unsigned Layers = 4,
     parameter int unsigned MaxWidth = 2048,
@@ -52,8 +54,8 @@ module rdx_render #(
 );
   import rdx_pkg::*;
 
+  localparam int unsigned Lines = Layers > 1 ? 2 : 4;  // at work: four where their layers need little memory
   events_t events;
-  logic finish;
 
   // ---- rows ----
   logic busy, line_end, free, load_valid, full, idle, vector_idle, add;
@@ -68,7 +70,7 @@ module rdx_render #(
   ) u_feed (
       .*,
       .busy_o(busy),
-      .finish_i(finish),
+      .finish_i(done_o),
       .opaque_o(opaque),
       .load_valid_o(load_valid),
       .load_o(load),
@@ -85,11 +87,12 @@ module rdx_render #(
 
   // ---- rays and hits ----
   logic hit_valid, hit_ready;
-  hit_t hit;
-  logic look, look_row, limit_valid;
+  logic look, limit_valid;
+  line_t look_row;
   pixel_t look_x;
   depth_t limit;
-  logic [2:0] skipped, skipped_row;
+  logic [2:0] skipped;
+  line_t [2:0] skipped_row;
   rdx_cast #(
       .N1(N1),
       .K(K),
@@ -99,11 +102,11 @@ module rdx_render #(
       .Rules(Rules),
       .Vecsum(Vecsum),
       .Lanes(Lanes),
-      .VectorUnits(VectorUnits)
+      .VectorUnits(VectorUnits),
+      .Rings(Rings),
+      .VectorRings(VectorRings)
   ) u_cast (
-      .clk_i,
-      .rst_ni,
-      .frame_i,
+      .*,
       .load_valid_i(load_valid),
       .load_i(load),
       .full_o(full),
@@ -119,11 +122,10 @@ module rdx_render #(
       .steps_o(events.steps),
       .hit_valid_o(hit_valid),
       .hit_ready_i(hit_ready),
-      .hit_o(hit)
+      .hit_o(tap_o)
   );
   assign {events.beyond, events.rootless, events.hidden} = skipped;
   assign tap_valid_o = hit_valid && hit_ready;
-  assign tap_o = hit;
 
   // ---- lines ----
   logic swept, begins, room, layer_valid, layer_whole;
@@ -132,15 +134,14 @@ module rdx_render #(
       .MaxWidth(MaxWidth),
       .Pixels(Pixels),
       .Layers(Layers),
+      .Lines(Lines),
       .Limit(Surfaces > 1)
   ) u_lines (
-      .clk_i,
-      .rst_ni,
+      .*,
       .ready_o(swept),
-      .start_i,
       .last_x_i(frame_i.last_x),
       .opaque_i(opaque),
-      .row_i(y[0]),
+      .row_i(y[1:0]),
       .free_o(free),
       .add_i(add),
       .add_count_i(add_count),
@@ -149,7 +150,7 @@ module rdx_render #(
       .skipped_row_i(skipped_row),
       .hit_valid_i(hit_valid),
       .hit_ready_o(hit_ready),
-      .hit_i(hit),
+      .hit_i(tap_o),
       .lost_o(events.lost),
       .look_i(look),
       .look_x_i(look_x),
@@ -178,20 +179,18 @@ module rdx_render #(
       .layer_valid_i(layer_valid),
       .layer_i(layer),
       .whole_i(layer_whole),
-      .finish_o(finish),
+      .finish_o(done_o),
       .stalled_o(events.stalled)
   );
   rdx_count u_count (
-      .clk_i,
+      .*,
       .clear_i(start_i),
       .k_stop_i(frame_i.k_stop),
       .hit_valid_i(tap_valid_o),
-      .hit_i(hit),
-      .events_i(events),
-      .counters_o
+      .hit_i(tap_o),
+      .events_i(events)
   );
   assign ready_o = swept && !busy;
-  assign done_o  = finish;
   wire unused = &{1'b0, y};
 
 endmodule

@@ -29,11 +29,11 @@ module rdx_scan #(
     output logic                    idle_o,               // no pixel is under way, and none waits
     output logic                    look_o,
     output rdx_pkg::pixel_t         look_x_o,
-    output logic                    look_row_o,           // lowest bit of the row
+    output rdx_pkg::line_t          look_row_o,
     input  wire logic               limit_valid_i,        // there is an opaque hit
     input  wire rdx_pkg::depth_t    limit_i,
     output logic                    hidden_o,             // the pixel in this clock has no ray
-    output logic                    hidden_row_o,
+    output rdx_pkg::line_t          hidden_row_o,
     output logic                    ray_valid_o,
     input  wire logic               ray_ready_i,
     output rdx_pkg::ray_t           ray_o,
@@ -102,7 +102,7 @@ module rdx_scan #(
       .next_i(full_q),
       .next_x0_i(next_x0_q),
       .next_x1_i(next_x1_q),
-      .next_row_i(next_q.y[0]),
+      .next_row_i(next_q.y[1:0]),
       .next_near_i(next_q.near_depth),
       .start_o(start),
       .step_o(step),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of vector-sum surfaces to hits: indicator at both ends, then the ring with the evaluator in its step units.
+// Rays of vector-sum surfaces to hits: indicator at both ends, then the rings with the evaluator in its step units.
 //
-// Formats    as rdx_ends and rdx_ring. form_i: constants of the surface; they may change where idle_o = 1.
-// Timing     as rdx_ends and rdx_ring.
+// Formats    as rdx_ends and rdx_rings. form_i: constants of the surface; they may change where idle_o = 1.
+// Timing     as rdx_ends and rdx_rings.
 // Reset      control only.
 // Model      model/raydix/core.py
 `default_nettype none
@@ -12,6 +12,7 @@ module rdx_vector #(
     parameter int unsigned N1 = 3,
     parameter int unsigned K = 8,
     parameter int unsigned U = 1,
+    parameter int unsigned Rings = 1,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned Lanes = 7,
     parameter bit General = 1'b0
@@ -53,17 +54,18 @@ module rdx_vector #(
       .ray_o(ray),
       .segment_o(segment)
   );
-  rdx_ring #(
+  rdx_rings #(
       .N1(N1),
       .K(K),
       .W(VectorWidth),
       .D(1),
       .U(U),
+      .Rings(Rings),
       .Rules(Rules),
       .HalveStages(1),
       .Lanes(Lanes),
       .General(General)
-  ) u_ring (
+  ) u_rings (
       .clk_i,
       .rst_ni,
       .form_i,
@@ -78,7 +80,7 @@ module rdx_vector #(
       .steps_o
   );
 
-  // Rays under way. They are far fewer than the counter can hold: the stages of rdx_ends and the slots of the ring.
+  // Rays under way. They are far fewer than the counter can hold: the stages of rdx_ends and the slots of the rings.
   logic [15:0] rays_q;
   wire entered = ray_valid_i && ray_ready_o;
   wire left = hit_valid_o && hit_ready_i && hit_o.last;

@@ -4,7 +4,7 @@
 // A pixel goes through three places: its number, and the question for the nearest opaque hit; the answer; its ray. One that
 // is hidden has no ray: its surface begins behind that hit.
 //
-// Formats    next_*_i: the row that waits, its first and last column, lowest bit of its number, depth of the near plane
+// Formats    next_*_i: the row that waits, its first and last column, lowest bits of its number, depth of the near plane
 //            (s1p31); held while next_i = 1. limit_i: s1p31.
 // Timing     a pixel a clock; a row that waits follows the one before without a gap. start_o and step_o: the next ray is the
 //            first of the row that waits, or the next one of this row; the lanes follow by a clock. limit_i answers in the
@@ -19,18 +19,18 @@ module rdx_walk (
     input  wire logic            next_i,
     input  wire rdx_pkg::pixel_t next_x0_i,
     input  wire rdx_pkg::pixel_t next_x1_i,
-    input  wire logic            next_row_i,
+    input  wire rdx_pkg::line_t  next_row_i,
     input  wire rdx_pkg::depth_t next_near_i,
     output logic                 start_o,
     output logic                 step_o,
     output logic                 idle_o,         // no pixel is under way
     output logic                 look_o,
     output rdx_pkg::pixel_t      look_x_o,
-    output logic                 look_row_o,
+    output rdx_pkg::line_t       look_row_o,
     input  wire logic            limit_valid_i,  // there is an opaque hit
     input  wire rdx_pkg::depth_t limit_i,
     output logic                 hidden_o,       // in this clock a pixel has no ray
-    output logic                 hidden_row_o,
+    output rdx_pkg::line_t       hidden_row_o,
     output logic                 ray_valid_o,
     input  wire logic            ray_ready_i,
     output rdx_pkg::pixel_t      ray_x_o
@@ -40,7 +40,7 @@ module rdx_walk (
   logic taken_q;  // the row that waits is being walked, its first ray has not begun
   logic walk_q, first_q, answer_q, answer_first_q, valid_q, hidden_q;
   pixel_t x_q, x1_q, answer_x_q;
-  logic row_q, answer_row_q;
+  line_t row_q, answer_row_q;
   depth_t near_q, answer_near_q;
 
   wire en = !valid_q || hidden_q || ray_ready_i;

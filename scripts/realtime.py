@@ -29,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "realtime.md"
 FIGURE2 = [ROOT / "scenes" / f"{name}.toml" for name in ("torus", "hyperboloid", "spiral")]
 RATE = 60  # frames a second
-SPEED = ("scene", "size", "n1", "units", "lanes", "pixels a beat", "rays", "steps", "cycles", "clock for 60 Hz, MHz",
+SPEED = ("scene", "size", "n1", "rings", "lanes", "pixels a beat", "rays", "steps", "cycles", "clock for 60 Hz, MHz",
          "steps / needed")  # fmt: skip
 SAVED = ("scene", "all on", *(f"without {name}" for name in SKIPS), "all off", "saved")
 
@@ -38,8 +38,8 @@ def prepared(path, args):
     """Scene, words, configuration and the golden model's frame."""
     scene = load_scene(path, *args.size)
     config = Config(
-        n1=args.n1, steps=24 // args.n1, units=min(args.units, 24 // args.n1), rules="certified", lanes=args.lanes,
-        vector_units=args.vector_units, **families(scene), **frame_parameters(scene, args.beat),
+        n1=args.n1, steps=24 // args.n1, units=1, rules="certified", lanes=args.lanes,
+        vector_units=1, rings=args.units, vector_rings=args.vector_units, **families(scene), **frame_parameters(scene, args.beat),
     )  # fmt: skip
     compiled = compile_scene(scene, config)
     return scene, compiled, config, compose(scene, trace_golden(compiled, config, 2), config, config.layers)
@@ -53,7 +53,7 @@ def speed_row(path, args):
     # K steps for each visible hit of an opaque surface, one for each other ray that entered a ring
     visible = counted["visible"]
     needed = config.steps * visible + max(0, counted["rays"] - visible)
-    units = config.units if config.degree else config.vector_units
+    units = config.rings if config.degree else config.vector_rings
     row = [scene.name, f"{args.size[0]}×{args.size[1]}", str(config.n1), str(units)]
     row += [str(config.lanes) if config.vecsum != "none" else "", str(config.beat)]
     row += [f"{counted[name]:,}" for name in ("rays", "steps", "cycles")]

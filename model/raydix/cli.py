@@ -43,11 +43,13 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
     parser.add_argument("--k-stop", type=int, metavar="K", help="steps to a hit in this frame (default: all)")
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
-    parser.add_argument("--units", type=int, metavar="U", help="step units in the RTL's ring (default: 8, at most K)")
+    parser.add_argument("--units", type=int, metavar="U", help="step units in a ring of the RTL (default: 8, at most K)")
+    parser.add_argument("--rings", type=int, default=1, metavar="N", help="rings side by side (default: 1)")
     parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
     parser.add_argument(
-        "--vector-units", type=int, default=1, metavar="U", help="step units in the vector-sum ring (default: 1)"
+        "--vector-units", type=int, default=1, metavar="U", help="step units in a vector-sum ring (default: 1)"
     )
+    parser.add_argument("--vector-rings", type=int, default=1, metavar="N", help="vector-sum rings (default: 1)")
     parser.add_argument("--beat", type=int, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)")
     parser.add_argument("--size", type=_size, metavar="WxH", help="image size instead of the scene's")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
@@ -101,18 +103,26 @@ def _config(args: argparse.Namespace, scene: Scene) -> Config:
         rule=args.rule,
         lanes=args.lanes,
         vector_units=args.vector_units,
+        rings=args.rings,
+        vector_rings=args.vector_rings,
         **families(scene),
         **frame_parameters(scene, args.beat),
     )
+
+
+def _units(rings: int, units: int) -> str:
+    """The step units of one ring, or of several."""
+    return f"U = {units}" if rings == 1 else f"U = {rings} × {units}"
 
 
 def _described(config: Config) -> str:
     """What is built of each ring."""
     parts = [f"n1 = {config.n1}, K = {config.steps}"]
     if config.degree:
-        parts.append(f"W = {config.width}, D = {config.degree}, U = {config.units}")
+        parts.append(f"W = {config.width}, D = {config.degree}, {_units(config.rings, config.units)}")
     if config.vecsum != "none":
-        parts.append(f"vector sums: {config.vecsum}, lanes = {config.lanes}, U = {config.vector_units}")
+        units = _units(config.vector_rings, config.vector_units)
+        parts.append(f"vector sums: {config.vecsum}, lanes = {config.lanes}, {units}")
     return "; ".join(parts)
 
 
@@ -214,7 +224,7 @@ def _configure(args: argparse.Namespace) -> int:
         "Vecsum": {"none": "no spiral", "helix": "helices only", "general": "spirals that grow, or parts of a turn"}[
             config.vecsum
         ],
-        "Lanes": "asked for, or J - 1", "VectorUnits": "asked for",
+        "Lanes": "asked for, or J - 1", "VectorUnits": "asked for", "Rings": "asked for", "VectorRings": "asked for",
         "Surfaces": "surfaces of the scene",
         "Layers": "all surfaces are opaque" if opaque else "roots of the transparent surfaces, and one",
         "MaxWidth": "columns of the picture", "Pixels": "asked for",

@@ -19,13 +19,15 @@ class Config:
     steps  K, steps to a hit; n = n1*K <= 32 digits of t
     width  W, bits of a control point, 16 to 48
     degree D, 4 (quartics too), 2 (quadrics only) or 0 (no algebraic surfaces)
-    units  U, step units in the algebraic ring, 1 to K
+    units  U, step units in each algebraic ring, 1 to K
+    rings  algebraic rings side by side; rings*units is at most 32
     rules  selection rules built in: "certified", "paper" or "both"
     rule   the rule used for this frame
     vecsum  evaluators of vector-sum surfaces: "none", "helix" (spirals of one turn at least whose radii do not grow)
            or "general" (every spiral)
     lanes  evaluators in a step unit of the vector-sum ring, 1 to J-1; they share the J-1 new boundaries of a step
-    vector_units  step units in the vector-sum ring, 1 to K
+    vector_units  step units in each vector-sum ring, 1 to K
+    vector_rings  vector-sum rings side by side; vector_rings*vector_units is at most 32
     surfaces  of the processor: descriptors, and surface numbers, 1 to 64
     layers    hits of a pixel that it keeps, 1 to 8
     max_width  pixels of its longest line, a multiple of `beat`, up to 4,096
@@ -45,6 +47,8 @@ class Config:
     vecsum: str = "none"
     lanes: int | None = None  # J-1
     vector_units: int = 1
+    rings: int = 1
+    vector_rings: int = 1
     surfaces: int = 64
     layers: int = 4
     max_width: int = 1920
@@ -63,6 +67,8 @@ class Config:
             "degree",
             "units",
             "vector_units",
+            "rings",
+            "vector_rings",
             "surfaces",
             "layers",
             "max_width",
@@ -82,6 +88,8 @@ class Config:
         check(1 <= self.lanes < self.cells, "lanes", f"1 to {self.cells - 1} (J - 1)")
         for name in ("units", "vector_units"):
             check(1 <= getattr(self, name) <= self.steps, name, f"1 to {self.steps} (the number of steps)")
+        for name, units in (("rings", self.units), ("vector_rings", self.vector_units)):
+            check(1 <= getattr(self, name) <= 32 // units, name, f"1 to {32 // units} (32 step units in all)")
         check(1 <= self.surfaces <= 64, "surfaces", "1 to 64")
         check(1 <= self.layers <= 8, "layers", "1 to 8")
         check(self.beat in (1, 2, 4), "beat", "1, 2 or 4")

@@ -95,6 +95,8 @@ def parameters(config: Config) -> dict[str, int]:
         "Vecsum": VECSUMS[config.vecsum],
         "Lanes": config.lanes,
         "VectorUnits": config.vector_units,
+        "Rings": config.rings,
+        "VectorRings": config.vector_rings,
     }
 
 
