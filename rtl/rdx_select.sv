@@ -7,7 +7,8 @@
 // Both       a value is positive if above zero; excluded cells are no candidates (paper rule: in Case 2).
 //
 // Formats    cells_i: J*D+1 control points, sWp0, cell j at [j*D +: D+1]; masks have bit j for cell j.
-//            pick_o, next_o: numbers of the first two candidates, valid where found_o, more_o.
+//            pick_o, next_o: numbers of the first two candidates, valid where found_o, more_o; pick_o = 0
+//            where there is none.
 // Timing     latency rdx_pkg::select_latency(N1, Rules) clocks, one choice a clock; no reset, no stall.
 // Model      model/raydix/select.py
 `default_nettype none
