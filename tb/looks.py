@@ -8,7 +8,7 @@ FAR = (1 << (DEPTH_WIDTH - 1)) - 1
 
 
 class Limits:
-    """The nearest opaque hit of each pixel of two lines, or none; ``depths`` are few, so that equal ones are met."""
+    """The nearest opaque hit of each pixel of four lines, or none; ``depths`` are few, so that equal ones are met."""
 
     def __init__(self, dut, random, share):
         self.dut, self.random, self.share = dut, random, share
@@ -19,7 +19,7 @@ class Limits:
         dut.limit_i.value = 0
 
     def of(self, row, x):
-        """Depth at column ``x`` of a line with lowest bit ``row``; None where there is none."""
+        """Depth at column ``x`` of a line with lowest bits ``row``; None where there is none."""
         if (row, x) not in self.known:
             there = self.random.random() < self.share
             self.known[row, x] = self.random.choice(self.depths) if there else None

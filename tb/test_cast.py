@@ -21,7 +21,7 @@ HIDDEN, ROOTLESS, BEYOND = range(3)  # reasons
 
 
 async def cast(dut, random, frame, skips, share, stall):
-    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, lowest bit of the row))."""
+    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, lowest bits of the row))."""
     dut.frame_i.value = walking.FRAME.pack(FRAME | dict.fromkeys(skips, 1))
     limits, load, hit = (
         looks.Limits(dut, random, share),
@@ -52,7 +52,7 @@ async def cast(dut, random, frame, skips, share, stall):
         if dut.hit_valid_o.value == 1 and dut.hit_ready_i.value == 1:
             records.append(bench.HIT.unpack(hit.read()[0]))
         skipped, rows = int(dut.skipped_o.value), int(dut.skipped_row_o.value)
-        without += [(reason, rows >> reason & 1) for reason in range(3) if skipped >> reason & 1]
+        without += [(reason, rows >> 2 * reason & 3) for reason in range(3) if skipped >> reason & 1]
         quiet = 0 if words or dut.hit_valid_o.value == 1 or dut.idle_o.value == 0 else quiet + 1
         await FallingEdge(dut.clk_i)
         limits.answer(asked)
@@ -69,17 +69,17 @@ def filled(frame, records, limits):
         for y in range(y0, y1 + 1):
             for x in range(x0, x1 + 1):
                 place, key = (y - y0, x - x0), {"surface": hits.surface.index, "x": x, "y": y}
-                hides = limits.hides(y & 1, x, near)
+                hides = limits.hides(y & 3, x, near)
                 assert not (hides and tuple(key.values()) in there), f"{key} is hidden and has a ray"
                 if hides:
-                    hidden.append(y & 1)
+                    hidden.append(y & 3)
                     out += [
                         key | {"hit": 1, "last": 0, "t": int(hits.t[*place, i]), "depth": int(hits.depth[*place, i]),
                                "point": hits.point[*place, i].tolist(), "enters": int(hits.enters[*place, i])}
                         for i in range(hits.t.shape[2]) if hits.t[*place, i] >= 0
                     ]  # fmt: skip
                 elif tuple(key.values()) not in there:
-                    empty.append(y & 1)
+                    empty.append(y & 3)
                 if tuple(key.values()) not in there:
                     out.append(key | {"hit": 0, "last": 1, "steps": hits.steps[*place]})
     return out, hidden, empty

@@ -74,7 +74,7 @@ async def scan(dut, random, rows, limits, idle, stall):
     every = list(rays(dut, [d for d, _ in rows]))
 
     def bit(ray):
-        return ray["ray_o"]["y"] & 1
+        return ray["ray_o"]["y"] & 3
 
     hides = [limits.hides(bit(ray), ray["ray_o"]["x"], ray["ends_o"]["depth_start"]) for ray in every]
     expected = [ray for ray, h in zip(every, hides, strict=True) if not h]
