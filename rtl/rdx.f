@@ -13,6 +13,7 @@ rdx_select.sv
 rdx_outside.sv
 rdx_descend.sv
 rdx_follow.sv
+rdx_clip.sv
 rdx_split.sv
 rdx_multiply.sv
 rdx_cordic.sv

@@ -4,7 +4,7 @@
 // Formats    b_i: D+1 Bernstein coefficients, sWp0. cells_o: J*D+1 values, sWp0; cell j is cells_o[j*D +: D+1], so
 //            neighbours share an end and cells_o[j*D] is the indicator at boundary j, 0 <= j <= J.
 // Rounding   that of rdx_halve.    Overflow   cannot happen, as there.
-// Timing     latency First + (N1-1)*HalveStages clocks, one cell a clock; no reset, no stall.
+// Timing     latency First + (N1-1)*HalveStages clocks, one less for Last = 0, one cell a clock; no reset, no stall.
 // Error      at most N1*D/2 ulp.
 // Model      model/raydix/cells.py (subdivide)
 `default_nettype none
@@ -14,7 +14,8 @@ module rdx_cells #(
     parameter int unsigned D = 4,
     parameter int unsigned N1 = 3,
     parameter int unsigned HalveStages = 2,
-    parameter int unsigned First = HalveStages  // clocks of the first halving
+    parameter int unsigned First = HalveStages,  // clocks of the first halving
+    parameter bit Last = 1'b1  // 0: without the registers behind the last row of the last halving
 ) (
     input  wire logic                clk_i,
     input  wire logic signed [W-1:0] b_i    [        D+1],
@@ -47,7 +48,8 @@ module rdx_cells #(
         rdx_halve #(
             .W(W),
             .D(D),
-            .Stages(l == 1 ? First : HalveStages)
+            .Stages(l == 1 ? First : HalveStages),
+            .Last(Last || l < N1)
         ) u_halve (
             .clk_i,
             .b_i(whole),

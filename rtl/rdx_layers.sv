@@ -147,7 +147,7 @@ module rdx_layers #(
   end
   assign last_o = write_valid_q && write_q.last;
   assign last_row_o = write_q.y[1:0];
-  wire unused_hit = &{1'b0, write_q};
+  wire unused_hit = &{1'b0, write_q, look_row_i};
 
   always_comb begin
     for (int unsigned p = 0; p < Pixels; p++) begin

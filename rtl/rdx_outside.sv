@@ -34,13 +34,23 @@ module rdx_outside #(
     end
     wire unused = &{1'b0, box_i};
   end else begin : gen_box
+    // Whether the upper m bits below the sign differ from it: by the bits of m, from the upper one. What is left to be
+    // looked at is half as long each time, which takes half the LUTs of a mask of m ones.
+    function automatic logic differs(coord_t value, box_t m);
+      coord_t left;
+      left = value;
+      differs = 1'b0;
+      for (int unsigned i = BoxWidth; i > 0; i--) begin
+        for (int unsigned b = 0; b < 1 << (i - 1); b++)
+        if (m[i-1] && left[CoordWidth-2-b] != left[CoordWidth-1]) differs = 1'b1;
+        if (m[i-1]) left = left << (1 << (i - 1));
+      end
+    endfunction
     always_comb begin
       for (int unsigned axis = 0; axis < 3; axis++) begin
-        coord_t face_bits;  // the sign and the m bits below it
-        face_bits = ~coord_t'({CoordWidth{1'b1}} >> 1 >> box_i[axis]);
         for (int unsigned j = 0; j <= J; j++) begin
           sign[axis][j] = boundaries_i[axis][j][CoordWidth-1];
-          over[axis][j] = |((boundaries_i[axis][j] ^{CoordWidth{sign[axis][j]}}) & face_bits);
+          over[axis][j] = differs(boundaries_i[axis][j], box_i[axis]);
         end
       end
     end

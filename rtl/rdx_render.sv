@@ -54,7 +54,7 @@ module rdx_render #(
 );
   import rdx_pkg::*;
 
-  localparam int unsigned Lines = Layers > 1 ? 2 : 4;  // at work: four where their layers need little memory
+  localparam int unsigned Lines = Layers > 1 ? 2 : 4;  // at work; four where they need little memory
   events_t events;
 
   // ---- rows ----

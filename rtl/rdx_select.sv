@@ -6,7 +6,8 @@
 // Paper      Case 2: cells whose ends differ in sign (10)(11). Case 1, no such cell: rdx_guess (8)(9).
 // Both       a value is positive if above zero; excluded cells are no candidates (paper rule: in Case 2).
 //
-// Formats    cells_i: J*D+1 control points, sWp0, cell j at [j*D +: D+1]; masks have bit j for cell j.
+// Formats    cells_i: J*D+1 control points, sWp0, cell j at [j*D +: D+1]; with Below = 1 less by one, so that the sign tells
+//            whether one is positive. Masks have bit j for cell j.
 //            pick_o, next_o: numbers of the first two candidates, valid where found_o, more_o; pick_o = 0
 //            where there is none.
 // Timing     latency rdx_pkg::select_latency(N1, Rules) clocks, one choice a clock; no reset, no stall.
@@ -18,6 +19,7 @@ module rdx_select #(
     parameter int unsigned D = 4,
     parameter int unsigned N1 = 3,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Below = 1'b0,  // 1, certified rule only: values are less by one
     localparam int unsigned J = 1 << N1
 ) (
     input  wire logic                 clk_i,
@@ -37,13 +39,16 @@ module rdx_select #(
   if (Rules < 1 || Rules > 3) begin : gen_illegal_rules
     $fatal(1, "rdx_select: Rules = %0d; allowed: 1 certified, 2 paper, 3 both", Rules);
   end
+  if (Below && HasPaper) begin : gen_illegal_below
+    $fatal(1, "rdx_select: Below = 1 with Rules = %0d; allowed: 1 certified", Rules);
+  end
 
   // First clock: signs of the control points
   logic [J*D:0] positive;
   logic [J-1:0] excluded, possible;
   logic last, paper;
   always_ff @(posedge clk_i) begin
-    for (int unsigned i = 0; i <= J * D; i++) positive[i] <= cells_i[i] > 0;
+    for (int unsigned i = 0; i <= J * D; i++) positive[i] <= Below ? !cells_i[i][W-1] : cells_i[i] > 0;
     excluded <= excluded_i;
     possible <= possible_i;
     last <= last_i;

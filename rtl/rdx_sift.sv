@@ -23,21 +23,21 @@ module rdx_sift #(
     parameter int unsigned Queue = 512,  // rays; a power of two
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
-    input  wire logic           rootless_i,
-    input  wire logic           boxes_i,
-    input  wire logic           ray_valid_i,
-    output logic                ray_ready_o,
-    input  wire rdx_pkg::ray_t  ray_i,
-    input  wire segment_t       segment_i,
-    output logic                ray_valid_o,
-    input  wire logic           ray_ready_i,
-    output rdx_pkg::ray_t       ray_o,
-    output segment_t            segment_o,
-    output logic                rootless_o,
-    output logic                beyond_o,
-    output rdx_pkg::line_t      row_o
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    input  wire logic          rootless_i,
+    input  wire logic          boxes_i,
+    input  wire logic          ray_valid_i,
+    output logic               ray_ready_o,
+    input  wire rdx_pkg::ray_t ray_i,
+    input  wire segment_t      segment_i,
+    output logic               ray_valid_o,
+    input  wire logic          ray_ready_i,
+    output rdx_pkg::ray_t      ray_o,
+    output segment_t           segment_o,
+    output logic               rootless_o,
+    output logic               beyond_o,
+    output rdx_pkg::line_t     row_o
 );
   import rdx_pkg::*;
 
@@ -100,7 +100,7 @@ module rdx_sift #(
   always_comb begin
     for (int unsigned c = 0; c < Cells; c++) mixed[c] = (|positive_q[c*D+:D+1]) && !(&positive_q[c*D+:D+1]);
   end
-  logic rootless_q, beyond_q;
+  logic rootless_q, beyond_q, beyond[1], beyond_late[1];
   always_ff @(posedge clk_i) begin
     for (int unsigned i = 0; i <= Cells * D; i++) positive_q[i] <= cells[i] > 0;
     rootless_q <= rootless_i && mixed == '0;
@@ -112,7 +112,6 @@ module rdx_sift #(
   always_comb begin
     for (int unsigned axis = 0; axis < 3; axis++) ends[axis] = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
   end
-  logic beyond[1], beyond_late[1];
   rdx_outside #(
       .J(1)
   ) u_outside (

@@ -22,86 +22,61 @@ module rdx_split #(
     parameter int unsigned D = 4,
     parameter int unsigned HalveStages = 2,
     parameter int unsigned Wait = 3,
+    parameter bit Below = 1'b0,  // 1: cells_o less by one, which a register more tells from the signs
     localparam int unsigned J = 1 << N1,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                   clk_i,
-    input  wire logic                   rst_ni,
-    input  wire rdx_pkg::box_t [   2:0] box_i,
-    input  wire segment_t               segment_i,
-    input  wire logic          [N1-1:0] pick_i,
-    output logic signed        [ W-1:0] cells_o  [J*D+1],
-    output logic               [ J-1:0] outside_o,
-    output segment_t                    cell_o
+    input  wire logic                        clk_i,
+    input  wire logic                        rst_ni,
+    input  wire rdx_pkg::box_t [        2:0] box_i,
+    input  wire segment_t                    segment_i,
+    input  wire logic          [     N1-1:0] pick_i,
+    output logic signed        [W+Below-1:0] cells_o  [J*D+1],
+    output logic               [      J-1:0] outside_o,
+    output segment_t                         cell_o
 );
   import rdx_pkg::*;
 
   localparam int unsigned Latency = N1 * HalveStages;
   localparam int unsigned Follow = pick_latency(N1, D);
 
-  // ---- control points ----
-  logic signed [W-1:0] b[D+1];
-  always_comb for (int unsigned i = 0; i <= D; i++) b[i] = segment_i.b[i];
+  // ---- control points; averages of values that are less by one are less by one ----
+  localparam type value_t = logic signed [W+Below-1:0];
+  localparam bit Early = Below && HalveStages > 0;
+  value_t b[D+1], b_q[D+1];
+  always_comb for (int unsigned i = 0; i <= D; i++) b[i] = value_t'($signed(segment_i.b[i])) - value_t'(Below);
+  rdx_delay #(
+      .T(value_t),
+      .Count(D + 1),
+      .Depth(32'(Early))
+  ) u_less (
+      .clk_i,
+      .data_i(b),
+      .data_o(b_q)
+  );
   rdx_cells #(
-      .W(W),
+      .W(W + 32'(Below)),
       .D(D),
       .N1(N1),
-      .HalveStages(HalveStages)
+      .HalveStages(HalveStages),
+      .Last(!Early)
   ) u_cells (
       .clk_i,
-      .b_i(b),
+      .b_i(b_q),
       .cells_o
   );
 
-  // ---- coordinates of the boundaries, ahead of the control points, so that the masks stand in registers ----
-  localparam int unsigned CoordStages = HalveStages > 0 ? 1 : 0;
-  localparam int unsigned CoordFirst = HalveStages == 1 ? 0 : CoordStages;
-  localparam int unsigned CoordLatency = CoordFirst + (N1 - 1) * CoordStages;
-  coord_t coords[3][J+1];
-  for (genvar axis = 0; axis < 3; axis++) begin : gen_axis
-    coord_t ends[2];
-    assign ends = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
-    rdx_cells #(
-        .W(CoordWidth),
-        .D(1),
-        .N1(N1),
-        .HalveStages(CoordStages),
-        .First(CoordFirst)
-    ) u_coords (
-        .clk_i,
-        .b_i(ends),
-        .cells_o(coords[axis])
-    );
-  end
-  box_t [2:0] box[1], box_q[1];
-  assign box[0] = box_i;
-  rdx_delay #(
-      .T(box_t[2:0]),
-      .Depth(CoordLatency)
-  ) u_box (
+  // ---- box ----
+  rdx_clip #(
+      .N1(N1),
+      .Latency(Latency)
+  ) u_clip (
       .clk_i,
-      .data_i(box),
-      .data_o(box_q)
+      .start_i(segment_i.ends.start),
+      .stop_i (segment_i.ends.stop),
+      .box_i,
+      .outside_o
   );
-  logic [J-1:0] outside[1], outside_q[1];
-  rdx_outside #(
-      .J(J)
-  ) u_outside (
-      .boundaries_i(coords),
-      .box_i(box_q[0]),
-      .low_i('0),
-      .high_i('0),
-      .outside_o(outside[0])
-  );
-  rdx_delay #(
-      .T(logic [J-1:0]),
-      .Depth(Latency - CoordLatency)
-  ) u_outside_q (
-      .clk_i,
-      .data_i(outside),
-      .data_o(outside_q)
-  );
-  assign outside_o = outside_q[0];
 
   // ---- the chosen cell ----
   segment_t here;

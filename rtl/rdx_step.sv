@@ -41,6 +41,7 @@ module rdx_step #(
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
 
   localparam int unsigned J = 1 << N1;
+  localparam type cell_t = logic [N1-1:0];
   localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes);
   localparam int unsigned SelectLatency = select_latency(N1, Rules);
   localparam int unsigned PickLatency = pick_latency(N1, D);
@@ -55,9 +56,10 @@ module rdx_step #(
   end
 
   // ---- cells: control points by halving, or the indicator at the boundaries by evaluating ----
-  logic signed [W-1:0] cells[J*D+1];
+  localparam bit Below = D > 1 && Rules == RuleCertified;  // signs are all that is needed of the cells
+  logic signed [W+Below-1:0] cells[J*D+1];
   logic [J-1:0] outside, possible;
-  logic [N1-1:0] pick, next;
+  cell_t pick, next, first;
   segment_t cell_q;
   // the digits of t_min at a level, 0 unless they are followed
   function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
@@ -68,10 +70,11 @@ module rdx_step #(
     {CONTROL.level == 5'(K - 1), CONTROL.paper, first_cell(CONTROL.level, CONTROL.t_min, CONTROL.follow)}
   `define RDX_LATE(NAME, TYPE, DEPTH, IN, OUT) \
     rdx_delay #(.T(TYPE), .Depth(DEPTH)) NAME (.clk_i, .data_i(IN), .data_o(OUT));
+  `define RDX_HOLD(NAME, WIDTH, DEPTH, IN, OUT) \
+    rdx_line #(.W(WIDTH), .Depth(DEPTH)) NAME (.clk_i, .rst_ni, .en_i(1'b1), .data_i(IN), .data_o(OUT));
   localparam type search_t = logic [N1+1:0];
   search_t search[1];  // what the choice needs of the control part, when the cells are there
   logic last, paper;
-  logic [N1-1:0] first;
   assign {last, paper, first} = search[0];
   control_t waits;  // what enters the line of the control part
   if (D > 1) begin : gen_split
@@ -80,7 +83,8 @@ module rdx_step #(
         .W(W),
         .D(D),
         .HalveStages(HalveStages),
-        .Wait(SelectLatency)
+        .Wait(SelectLatency),
+        .Below(Below)
     ) u_split (
         .clk_i,
         .rst_ni,
@@ -123,10 +127,11 @@ module rdx_step #(
   // ---- choice: cells before t_min and cells outside of the box are passed over ----
   logic found, more;
   rdx_select #(
-      .W(W),
+      .W(W + 32'(Below)),
       .D(D),
       .N1(N1),
-      .Rules(Rules)
+      .Rules(Rules),
+      .Below(Below)
   ) u_select (
       .clk_i,
       .cells_i(cells),
@@ -141,30 +146,25 @@ module rdx_step #(
   );
 
   // ---- pick: the chosen cell becomes the item's, its number the next digits of t ----
-  localparam type choice_t = logic [2*N1+1:0];
+  localparam type choice_t = logic [3*N1+1:0];
+  cell_t first_now[1], first_late[1];
+  assign first_now[0] = first;
+  `RDX_LATE(u_first, cell_t, SelectLatency, first_now, first_late)
   choice_t choice[1], choice_q[1];
   logic was_found, was_more;
-  logic [N1-1:0] was_pick, was_next;
-  assign choice[0] = {found, more, pick, next};
-  assign {was_found, was_more, was_pick, was_next} = choice_q[0];
+  cell_t was_pick, was_next, was_first;
+  assign choice[0] = {found, more, pick, next, first_late[0]};
+  assign {was_found, was_more, was_pick, was_next, was_first} = choice_q[0];
   `RDX_LATE(u_choice, choice_t, PickLatency - 1, choice, choice_q)
   control_t chosen, picked_d, picked_q;
-  rdx_line #(
-      .W($bits(control_t)),
-      .Depth((D > 1 ? CellsLatency : 0) + SelectLatency + PickLatency - 1)
-  ) u_control (
-      .clk_i,
-      .rst_ni,
-      .en_i  (1'b1),
-      .data_i(waits),
-      .data_o(chosen)
-  );
+  localparam int unsigned Choosing = SelectLatency + PickLatency - 1;
+  `RDX_HOLD(u_control, $bits(control_t), (D > 1 ? CellsLatency : 0) + Choosing, waits, chosen)
   rdx_pick #(
       .N1(N1),
       .K (K)
   ) u_pick (
       .control_i(chosen),
-      .first_i  (first_cell(chosen.level, chosen.t_min, chosen.follow)),
+      .first_i  (was_first),
       .found_i  (was_found),
       .more_i   (was_more),
       .pick_i   (was_pick),

@@ -239,9 +239,9 @@ PROOFS = {
         "nothing lost, doubled or changed; nobody passed by twice; stream rules, if both inputs keep them",
         {"W": 8},
         broken=(
-            ("rdx_merge", "turn_q <= ready_i ? !chosen : chosen", "turn_q <= chosen"),
-            ("rdx_merge", "held_q || valid_i[turn_q] ? turn_q", "valid_i[1] ? 1'b1"),
-            ("rdx_merge", "ready_o[chosen] = ready_i;", "ready_o = {2{ready_i}};"),
+            ("rdx_merge", "turn_q <= !ready_i ? chosen :", "turn_q <= 1'b1 ? chosen :"),
+            ("rdx_merge", "i >= int'(turn_q)) chosen", "i >= 1) chosen"),
+            ("rdx_merge", "ready_o[chosen] = ready_i;", "ready_o = {Count{ready_i}};"),
         ),
     ),
 }

@@ -3,7 +3,7 @@
 """Cycles of a frame of the processor, the clock that 60 frames a second take, and what skipping saves.
 
     scripts/realtime.py                       the scenes of the paper's figure 2, 1920x1080
-    scripts/realtime.py SCENE --units 4       one scene; parameters as those of raydix render
+    scripts/realtime.py SCENE --rings 4       one scene; parameters as those of raydix render
     scripts/realtime.py --skips               what each kind of skipping saves, instead, 320x240
     scripts/realtime.py --write               renew the table in docs/realtime.md, too
 
@@ -39,7 +39,8 @@ def prepared(path, args):
     scene = load_scene(path, *args.size)
     config = Config(
         n1=args.n1, steps=24 // args.n1, units=1, rules="certified", lanes=args.lanes,
-        vector_units=1, rings=args.units, vector_rings=args.vector_units, **families(scene), **frame_parameters(scene, args.beat),
+        vector_units=1, rings=args.rings, vector_rings=args.vector_rings, **families(scene),
+        **frame_parameters(scene, args.beat),
     )  # fmt: skip
     compiled = compile_scene(scene, config)
     return scene, compiled, config, compose(scene, trace_golden(compiled, config, 2), config, config.layers)
@@ -78,9 +79,9 @@ def main():
     parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: the paper's figure 2)")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), metavar="WxH")
     parser.add_argument("--n1", type=int, default=3)
-    parser.add_argument("--units", type=int, default=4)
+    parser.add_argument("--rings", type=int, default=4)
     parser.add_argument("--lanes", type=int)
-    parser.add_argument("--vector-units", type=int, default=1)
+    parser.add_argument("--vector-rings", type=int, default=1)
     parser.add_argument("--beat", type=int, default=2)
     parser.add_argument("--skips", action="store_true", help="what each kind of skipping saves")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/realtime.md")

@@ -76,15 +76,20 @@ POINTS = {
     "shade-d4": Point("rdx_shade", {"D": 4, "Vecsum": 0, "Surfaces": 1}),
     "render-quadric": Point(
         "rdx_render",
-        {"N1": 3, "K": 8, "D": 2, "U": 3, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
+        {"D": 2, "U": 1, "Rings": 3, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
         slow=True,
     ),
     "render-torus": Point(
         "rdx_render",
-        {"N1": 3, "K": 8, "D": 4, "U": 4, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
+        {"D": 4, "U": 1, "Rings": 4, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
         slow=True,
     ),
-    "lines": Point("rdx_lines", {"MaxWidth": 1920, "Pixels": 2, "Layers": 1, "Limit": 0}),
+    "render-one": Point(
+        "rdx_render",
+        {"D": 4, "U": 1, "Rings": 1, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
+        slow=True,
+    ),
+    "lines": Point("rdx_lines", {"MaxWidth": 1920, "Pixels": 2, "Layers": 1, "Lines": 4, "Limit": 0}),
     "core": Point("rdx_core", {"N1": 3, "K": 8, "W": 36, "D": 4, "U": 1, "Rules": 1}, slow=True),
 }
 

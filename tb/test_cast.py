@@ -16,7 +16,8 @@ from raydix.ring import behind
 from raydix.rtl import parameters
 from test_core import CONFIG, compiled_frame
 
-FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "k_stop": 0, "ambient": 0, "background": [0, 0, 0]}
+FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "k_stop": CONFIG.k_stop, "ambient": 0}
+FRAME |= {"background": [0, 0, 0]}
 FRAME |= dict.fromkeys(walking.SKIPS, 0)
 HIDDEN, ROOTLESS, BEYOND = range(3)  # reasons
 
@@ -109,6 +110,13 @@ async def compare(dut, random, frame, skips=(), share=0.0, stall=0.0):
     records, limits, without, ended = await cast(dut, random, frame, skips, share, stall)
     records, hidden, empty, cut = filled(frame, records, limits)
     assert cut[0] <= ended <= cut[1] and (ended > 0) == (share > 0), f"{ended} items have ended; {cut}"
+    if "boxes" not in skips:  # then cells beyond a face take steps, too
+        surfaces = {hits.surface.index: hits for hits in frame.surfaces}
+        for r in (r for r in records if r["last"]):
+            x0, y0, *_ = surfaces[r["surface"]].surface.rect
+            steps = surfaces[r["surface"]].steps[r["y"] - y0, r["x"] - x0]
+            assert r["steps"] >= steps
+            r["steps"] = steps
     test_core.compare(frame, records)
     assert hidden == [row for reason, row in without if reason == HIDDEN]
     assert sorted(empty) == sorted(row for reason, row in without if reason != HIDDEN)

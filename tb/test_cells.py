@@ -42,7 +42,7 @@ async def equal(dut, cells):
         dut,
         ({"b_i": list(b)} for b in cells),
         lambda item: {"cells_o": model(item["b_i"], n1)},
-        n1 * bench.parameter(dut, "HalveStages"),
+        n1 * bench.parameter(dut, "HalveStages") - (not bench.parameter(dut, "Last")),
     )
 
 
@@ -73,6 +73,7 @@ async def within_bound(dut):
 SETS = [
     dict(W=36, D=4, N1=3, HalveStages=2),
     dict(W=36, D=4, N1=1, HalveStages=4),
+    dict(W=37, D=4, N1=2, HalveStages=2, Last=0),
     dict(W=48, D=2, N1=4, HalveStages=1),
     dict(W=32, D=1, N1=2, HalveStages=1),
     dict(W=16, D=3, N1=2, HalveStages=0),

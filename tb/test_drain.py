@@ -32,7 +32,8 @@ class Reader:
         self.dut, self.random, self.last_group = dut, random, last_group
         self.layers, self.pixels = bench.parameter(dut, "Layers"), bench.parameter(dut, "Pixels")
         self.groups = bench.parameter(dut, "MaxWidth") // self.pixels
-        self.lines = [None, None]  # by row: the groups of a line that is finished and has not been read
+        self.count = bench.parameter(dut, "Lines")
+        self.lines = [None] * self.count  # by row: the groups of a line that is finished and has not been read
         self.place = (0, 0)  # row and group that is read next
         self.reads = [None] * READ
         self.freed = None  # line that was read to its end in the clock before
@@ -79,7 +80,7 @@ class Reader:
         if read is not None:
             ends = number == self.last_group
             self.freed = row if ends else None
-            self.place = (1 - row, 0) if ends else (row, number + 1)
+            self.place = ((row + 1) % self.count, 0) if ends else (row, number + 1)
         if start:
             self.place = (0, 0)
         valid, begins = bool(dut.layer_valid_o.value), bool(dut.begin_o.value)
@@ -103,21 +104,21 @@ class Reader:
         await FallingEdge(dut.clk_i)
 
     async def swept(self):
-        """After a reset: both lines are read once, all groups, and only then ready_o."""
+        """After a reset: all lines are read once, all groups, and only then ready_o."""
         seen = []
         while not self.dut.ready_o.value:
             assert self.dut.read_o.value, "the sweep pauses"
             seen.append((int(self.dut.read_row_o.value), int(self.dut.read_group_o.value)))
             assert not self.dut.layer_valid_o.value and not int(self.dut.free_o.value)
             await FallingEdge(self.dut.clk_i)
-        assert seen == [(row, group) for row in range(2) for group in range(self.groups)][-len(seen) :]
+        assert seen == [(row, group) for row in range(self.count) for group in range(self.groups)][-len(seen) :]
         return len(seen)
 
 
 @cocotb.test
 @cocotb.parametrize(stall=(0.0, 0.3, 0.9), background=(0.0, 0.7, 1.0))
 async def gives_lines(dut, stall, background):
-    """Lines of one group, of all groups, and others; both finished at once, or with pauses; some thousand layers."""
+    """Lines of one group, of all groups, and others; all finished at once, or with pauses; some thousand layers."""
     random = bench.rng(f"{stall} {background}")
     groups = bench.parameter(dut, "MaxWidth") // bench.parameter(dut, "Pixels")
     dut.line_i.value, dut.start_i.value, dut.room_i.value = 0, 0, 1
@@ -129,9 +130,9 @@ async def gives_lines(dut, stall, background):
         await reader.clock(True, start=True)
         count = 5 + 40 // (last + 1)
         for line in range(count):
-            while reader.lines[line & 1] is not None or (not eager and random.random() < 0.9):
+            while reader.lines[line % reader.count] is not None or (not eager and random.random() < 0.9):
                 await reader.clock(random.random() >= stall)
-            reader.finish_line(line & 1, background)
+            reader.finish_line(line % reader.count, background)
         while reader.expected:
             await reader.clock(random.random() >= stall)
         for _ in range(6):
@@ -176,7 +177,7 @@ async def reset_sweeps(dut):
         await FallingEdge(dut.clk_i)
         dut.rst_ni.value = 1
         reader = Reader(dut, random, 1)
-        assert await reader.swept() == 2 * reader.groups
+        assert await reader.swept() == reader.count * reader.groups
     for row in (0, 1):
         reader.finish_line(row, 0.5)
     while reader.expected:
@@ -185,7 +186,7 @@ async def reset_sweeps(dut):
 
 SETS = [
     dict(MaxWidth=64, Pixels=1, Layers=1),
-    dict(MaxWidth=32, Pixels=2, Layers=4),
+    dict(MaxWidth=32, Pixels=2, Layers=4, Lines=4),
     dict(MaxWidth=32, Pixels=4, Layers=3),
     dict(MaxWidth=12, Pixels=1, Layers=2),
 ]

@@ -47,8 +47,11 @@ BUILDS = {
         ("spiral", "flat_spiral"),
     ),
 }
+# builds that `make test` leaves to `make regress`
+LONG = ("paper's digits one by one, n = 20", "n1 = 2, n = 32, K not a multiple of U", "quadrics only, full pipeline",
+        "quadrics, paper only, n1 = 4, n = 32", "vector sums only, full pipeline")  # fmt: skip
 CASES = [
-    pytest.param(config.with_(rule=rule), scene, id=f"{name}-{scene}-{rule}")
+    pytest.param(config.with_(rule=rule), scene, id=f"{name}-{scene}-{rule}", marks=[pytest.mark.long] * (name in LONG))
     for name, (config, scenes) in BUILDS.items()
     for scene in scenes
     for rule in (("certified", "paper") if config.rules == "both" else (config.rules,))
@@ -82,6 +85,7 @@ def test_rtl_equals_golden(config, scene):
     assert differing_bits(golden, rtl) == 0
 
 
+@pytest.mark.long
 def test_full_pipeline_takes_a_ray_a_clock():
     """Torus, 640x480, reference configuration, U = K: equal bits, at most 1.02 cycles a ray, 1.01 * needed steps."""
     config = Config(3, 8, 36, 4, 8, "certified")

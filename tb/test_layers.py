@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Layers of two lines: each hit finds those before it, a line read is the model's and empty, the limit is current."""
+"""Layers of some lines: each hit finds those before it, a line read is the model's and empty, the limit is current."""
 
 from collections import defaultdict
 
@@ -21,7 +21,7 @@ class Lines:
         self.dut, self.random = dut, random
         self.layers, self.pixels = (bench.parameter(dut, name) for name in ("Layers", "Pixels"))
         self.width, self.limited = (bench.parameter(dut, name) for name in ("MaxWidth", "Limit"))
-        self.groups = self.width // self.pixels
+        self.groups, self.lines = self.width // self.pixels, bench.parameter(dut, "Lines")
         self.held = defaultdict(list)  # (row, x) -> entries; all hits that were taken
         self.limits = {}  # (row, x) -> depth; as written
         self.under_way = [None] * WRITTEN  # what the last transfers do, the latest first
@@ -43,21 +43,23 @@ class Lines:
         else:
             self.hit.write(hit)
         dut.read_i.value = int(read is not None)
-        dut.read_row_i.value, dut.read_group_i.value = read or (random.getrandbits(1), random.randrange(self.groups))
+        anything = random.randrange(self.lines), random.randrange(self.groups)
+        dut.read_row_i.value, dut.read_group_i.value = read or anything
         dut.look_i.value = int(look is not None)
-        dut.look_row_i.value, dut.look_x_i.value = look or (random.getrandbits(1), random.randrange(self.width))
+        dut.look_row_i.value, dut.look_x_i.value = look or (random.randrange(self.lines), random.randrange(self.width))
         await ReadOnly()
         taken = False
         if hit is not None:
-            pixel = hit["y"] & 1, hit["x"]
-            hazard = hit["hit"] and any(w and w["pixel"] == pixel and w["hit"] for w in self.under_way)
+            pixel = hit["y"] % self.lines, hit["x"]
+            at = hit["y"] & 3, hit["x"]
+            hazard = hit["hit"] and any(w and w["at"] == at and w["hit"] for w in self.under_way)
             taken = bool(dut.hit_ready_o.value)
             assert taken == (not hazard), f"hit_ready_o = {taken} at {pixel}, under way: {self.under_way}"
             self.hazards += hazard
         done = self.under_way[-1]
         assert bool(dut.last_o.value) == bool(done and done["last"]), "last_o"
         if done and done["last"]:
-            assert int(dut.last_row_o.value) == done["pixel"][0], "last_row_o"
+            assert int(dut.last_row_o.value) == done["at"][0], "last_row_o"
         assert bool(dut.lost_o.value) == bool(done and done["lost"]), f"lost_o = {dut.lost_o.value}: {done}"
         if self.reads[-1] is not None:
             words = [meant(entries, self.layers) for entries in self.reads[-1]]
@@ -92,20 +94,20 @@ class Lines:
 
     def take(self, hit):
         """Put a hit into the model; what its writing does."""
-        pixel = hit["y"] & 1, hit["x"]
+        pixel = hit["y"] % self.lines, hit["x"]
         if hit["hit"]:
             opaque = self.opaque >> hit["surface"] & 1
             made = {name: hit[name] for name in ("enters", "surface", "depth", "point")} | {"opaque": opaque}
             self.held[pixel], lost = place(self.held[pixel], made, self.layers)
             self.hits += 1
             self.lost += lost
-        return {"pixel": pixel, "hit": hit["hit"], "last": hit["last"], "lost": bool(hit["hit"] and lost),
-                "entries": self.held[pixel]}  # fmt: skip
+        return {"pixel": pixel, "at": (hit["y"] & 3, hit["x"]), "hit": hit["hit"], "last": hit["last"],
+                "lost": bool(hit["hit"] and lost), "entries": self.held[pixel]}  # fmt: skip
 
     async def sweep(self):
         """Read every pixel once, which empties it; what is read means nothing."""
         for group in range(self.groups):
-            for row in range(2):
+            for row in range(self.lines):
                 self.dut.read_i.value, self.dut.read_row_i.value, self.dut.read_group_i.value = 1, row, group
                 await FallingEdge(self.dut.clk_i)
         self.dut.read_i.value = 0
@@ -117,35 +119,35 @@ class Lines:
         random = self.random
         made = entry(random)
         del made["opaque"]
-        return made | {"x": random.choice(spots), "y": random.getrandbits(PIXEL_WIDTH - 1) << 1 | row,
+        return made | {"x": random.choice(spots), "y": (random.getrandbits(PIXEL_WIDTH - 2) << 2) + row,
                        "hit": int(random.random() < 0.85), "last": random.getrandbits(1),
                        "t": random.getrandbits(32), "steps": random.getrandbits(STEPS_WIDTH)}  # fmt: skip
 
 
 @cocotb.test
 @cocotb.parametrize(idle=(0.0, 0.3), spots=(1, 3, 40))
-async def keeps_two_lines(dut, idle, spots):
-    """Hits of one line, often of one pixel in consecutive clocks, while the other is read and limits are asked for."""
+async def keeps_lines(dut, idle, spots):
+    """Hits of one line, often of one pixel in consecutive clocks, while another is read and limits are asked for."""
     random = bench.rng(f"{idle} {spots}")
     lines = Lines(dut, random)
     await bench.start(dut)
     await lines.sweep()
     for turn in range(10):
-        row = turn & 1
+        row, other = turn % lines.lines, (turn + 1) % lines.lines
         lines.opaque = random.getrandbits(64) & random.getrandbits(64)
         dut.opaque_i.value = lines.opaque
         xs = [random.randrange(lines.width) for _ in range(spots)]
         records = [lines.record(row, xs) for _ in range(150)]
-        groups = sorted({x // lines.pixels for r, x in lines.held if r != row} | set(range(min(20, lines.groups))))
+        groups = sorted({x // lines.pixels for r, x in lines.held if r == other} | set(range(min(20, lines.groups))))
         while records or groups:
             hit = records[0] if records and random.random() >= idle else None
-            read = (1 - row, groups[0]) if groups and random.random() < 0.3 else None
+            read = (other, groups[0]) if groups and random.random() < 0.3 else None
             look = (row, random.choice(xs)) if random.random() < 0.4 else None
             if await lines.clock(hit, read, look):
                 records.pop(0)
             if read:
                 groups.pop(0)
-        assert not [pixel for pixel in lines.held if pixel[0] != row], "the line that was read is empty"
+        assert not [pixel for pixel in lines.held if pixel[0] == other], "the line that was read is empty"
         for _ in range(WRITTEN):
             await lines.clock()
     assert lines.hits > 1000 and (lines.hazards or spots > 3), f"{lines.hits} hits, {lines.hazards} waited"
@@ -183,9 +185,9 @@ async def reset_forgets_what_is_under_way(dut):
 
 
 SETS = [
-    dict(MaxWidth=4096, Pixels=1, Layers=1),
+    dict(MaxWidth=4096, Pixels=1, Layers=1, Lines=4),
     dict(MaxWidth=64, Pixels=2, Layers=4, Limit=0),
-    dict(MaxWidth=2048, Pixels=4, Layers=4),
+    dict(MaxWidth=2048, Pixels=4, Layers=4, Lines=4),
     dict(MaxWidth=48, Pixels=1, Layers=3),
 ]
 

@@ -72,7 +72,7 @@ async def render(dut, random, frame, idle, stall):
     while y < frame.height or frame.expected or quiet < 20:
         dut.start_i.value = int(frame.now == 0)
         sending = frame.rows[0][0] if frame.rows else frame.height - 1
-        dut.row_i.value = sending & 1
+        dut.row_i.value = sending & 3
         await Timer(1, unit="ns")
         free = bool(dut.free_o.value) and frame.now > 0 and bool(frame.rows) and random.random() >= idle
         add = end = False
@@ -84,12 +84,12 @@ async def render(dut, random, frame, idle, stall):
         # verdicts
         skipped = rows = 0
         for bit in range(3):
-            rows |= random.getrandbits(1) << bit
+            rows |= random.getrandbits(2) << 2 * bit
             if frame.skips and random.random() < 0.4:
                 of = frame.skips.pop(random.randrange(len(frame.skips)))
                 frame.waiting[of] -= 1
                 skipped |= 1 << bit
-                rows = rows & ~(1 << bit) | (of & 1) << bit
+                rows = rows & ~(3 << 2 * bit) | (of & 3) << 2 * bit
         dut.skipped_i.value, dut.skipped_row_i.value = skipped, rows
         if ray is None and frame.rays and random.random() >= idle:
             ray = random.choice(frame.rays)
@@ -100,7 +100,7 @@ async def render(dut, random, frame, idle, stall):
         spots = [spot for spot in frame.touched if frame.waiting[spot[0]] and spot[0] >= y]
         look = random.choice(spots) if spots and random.random() < 0.6 else None
         dut.look_i.value = int(look is not None)
-        dut.look_row_i.value, dut.look_x_i.value = (look[0] & 1, look[1]) if look else (0, 0)
+        dut.look_row_i.value, dut.look_x_i.value = (look[0] & 3, look[1]) if look else (0, 0)
         room = random.random() >= stall
         dut.room_i.value = int(room)
         await ReadOnly()
@@ -166,8 +166,8 @@ async def lines_hold_their_hits(dut, idle, stall):
 
 
 SETS = [
-    dict(MaxWidth=32, Pixels=1, Layers=1),
-    dict(MaxWidth=64, Pixels=4, Layers=4),
+    dict(MaxWidth=32, Pixels=1, Layers=1, Lines=4),
+    dict(MaxWidth=64, Pixels=4, Layers=4, Lines=4),
     dict(MaxWidth=16, Pixels=2, Layers=2, Limit=0),
 ]
 

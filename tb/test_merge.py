@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two streams into one: nothing lost or doubled, each in its order, an offer stays, and none waits for two others."""
+"""Streams into one: nothing lost or doubled, each in its order, an offer stays, and each has its turn."""
 
 import cocotb
+import pytest
 from cocotb.triggers import FallingEdge, ReadOnly
 
 import bench
@@ -15,37 +16,38 @@ async def clock_of(dut, offers, ready):
     dut.ready_i.value = int(ready)
     await ReadOnly()
     taken = int(dut.ready_o.value)
-    return bool(int(dut.valid_o.value)), [bool(taken >> i & 1) for i in range(2)], int(dut.data_o.value)
+    return bool(int(dut.valid_o.value)), [bool(taken >> i & 1) for i in range(len(offers))], int(dut.data_o.value)
 
 
 async def merge(dut, random, data, idle, stall, count=400):
     """``count`` items of each stream with ``data(stream)``: the streams of the transfers, in order."""
+    streams = bench.parameter(dut, "Count")
     dut.valid_i.value = 0
     dut.ready_i.value = 0
     await bench.start(dut)
-    offers, left, order, held = [None, None], [count, count], [], None
-    others = [0, 0]  # transfers of the other stream since the offer
+    offers, left, order, held = [None] * streams, [count] * streams, [], None
+    others = [0] * streams  # transfers of other streams since the offer
     while any(left) or any(offer is not None for offer in offers):
-        for i in range(2):
-            if offers[i] is None and left[i] and random.random() >= idle[i]:
+        for i in range(streams):
+            if offers[i] is None and left[i] and random.random() >= idle[i % 2]:
                 offers[i], others[i] = data(i), 0
                 left[i] -= 1
         ready = random.random() >= stall
         valid, taken, value = await clock_of(dut, offers, ready)
         assert valid == any(offer is not None for offer in offers), "valid_o is that there is an offer"
-        moved = [i for i in range(2) if taken[i] and offers[i] is not None]
+        moved = [i for i in range(streams) if taken[i] and offers[i] is not None]
         assert len(moved) == (valid and ready), f"ready_i = {ready}, transfers of {moved}"
         if held is not None:
             assert value == held, f"{held} became {value} before ready"
         held = value if valid and not ready else None
         for i in moved:
             assert value == offers[i], f"stream {i}: {offers[i]} became {value}"
-            assert others[i] <= 1, f"stream {i} waited for {others[i]} others"
-            others[1 - i] += 1
+            assert others[i] < streams, f"stream {i} waited for {others[i]} others"
+            others = [n + (j != i) for j, n in enumerate(others)]
             order.append(i)
             offers[i] = None
         await FallingEdge(dut.clk_i)
-    assert sorted(order) == [0] * count + [1] * count
+    assert sorted(order) == [i for i in range(streams) for _ in range(count)]
     return order
 
 
@@ -59,7 +61,8 @@ async def keeps_both_streams(dut, idle, stall):
     random = bench.rng(f"{idle} {stall}")
     order = await merge(dut, random, lambda i: random.getrandbits(1), idle, stall)
     if not any(idle):
-        assert order == [0, 1] * (len(order) // 2)
+        streams = bench.parameter(dut, "Count")
+        assert order == list(range(streams)) * (len(order) // streams)
 
 
 @cocotb.test
@@ -67,7 +70,7 @@ async def keeps_both_streams(dut, idle, stall):
 async def offer_stays(dut, idle):
     """The same where the value names the stream: an offer that waits is not exchanged for the other stream's."""
     random = bench.rng(f"{idle}")
-    await merge(dut, random, lambda i: i, idle, 0.7)
+    await merge(dut, random, lambda i: i & 1, idle, 0.7)
 
 
 @cocotb.test
@@ -77,18 +80,21 @@ async def reset_gives_turn_to_the_first(dut, stream):
     dut.valid_i.value = 0
     dut.ready_i.value = 0
     await bench.start(dut)
+    rest = [None] * (bench.parameter(dut, "Count") - 2)
     for offers in ([None, 1], [0, 1]):
+        offers = [*offers, *rest]
         _, _, value = await clock_of(dut, offers, False)
         assert value == 1
         await FallingEdge(dut.clk_i)
     dut.rst_ni.value = 0
     await FallingEdge(dut.clk_i)
     dut.rst_ni.value = 1
-    _, taken, value = await clock_of(dut, [None if stream else 0, 1], True)
-    assert value == stream and taken == [stream == 0, stream == 1]
+    _, taken, value = await clock_of(dut, [None if stream else 0, 1, *rest], True)
+    assert value == stream and taken[:2] == [stream == 0, stream == 1]
     await FallingEdge(dut.clk_i)
 
 
-def test_merge():
-    """Items of one bit; records of both rings pass it in the core's tests."""
-    bench.run(__name__, "rdx_merge")
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_merge(count):
+    """Items of one bit, two streams and more; records of the rings pass it in the core's tests."""
+    bench.run(__name__, "rdx_merge", dict(Count=count))

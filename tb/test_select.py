@@ -56,11 +56,18 @@ def flags(random, cells, n1):
     return dict(cells_i=cells, excluded_i=excluded) | request
 
 
+def less(item, below):
+    """The item with values less by ``below``."""
+    return item | dict(cells_i=[value - below for value in item["cells_i"]])
+
+
 async def equal(dut, items):
     """RTL and model on ``items``."""
-    degree, n1, rules = (bench.parameter(dut, name) for name in ("D", "N1", "Rules"))
+    degree, n1, rules, below = (bench.parameter(dut, name) for name in ("D", "N1", "Rules", "Below"))
+    least = bench.low(bench.parameter(dut, "W"))
 
     def expect(item):
+        item = less(item, -below)
         by_paper = rules == PAPER or (rules == BOTH and item["paper_i"])
         last, possible = item["last_i"], item["possible_i"]
         mask = candidates(item["cells_i"], item["excluded_i"], last, by_paper, degree, n1, possible)
@@ -70,6 +77,7 @@ async def equal(dut, items):
         return outputs | {"pick_o": [pick or 0], "next_o": [following]}
 
     await bench.start(dut)
+    items = (less(item, below) for item in items if least + below <= min(item["cells_i"]))
     await bench.pipeline(dut, items, expect, latency.select(n1, rules))
 
 
@@ -172,6 +180,7 @@ async def certified_misses_nothing(dut):
 WIDE = [
     dict(W=36, D=4, N1=3, Rules=BOTH),
     dict(W=36, D=4, N1=3, Rules=CERTIFIED),
+    dict(W=37, D=4, N1=3, Rules=CERTIFIED, Below=1),
     dict(W=36, D=4, N1=3, Rules=PAPER),
     dict(W=48, D=2, N1=4, Rules=BOTH),
     dict(W=16, D=3, N1=2, Rules=BOTH),
@@ -191,7 +200,7 @@ def test_choice(parameters):
     bench.run(__name__, "rdx_select", parameters, checks)
 
 
-@pytest.mark.parametrize("rules", [CERTIFIED, PAPER, BOTH])
-def test_every_small_choice(rules):
+@pytest.mark.parametrize("rules, below", [(CERTIFIED, 0), (CERTIFIED, 1), (PAPER, 0), (BOTH, 0)])
+def test_every_small_choice(rules, below):
     """Exhaustive in control points, excluded and possible cells, level and rule."""
-    bench.run(__name__, "rdx_select", dict(W=3, D=1, N1=1, Rules=rules), ["equals_model_exhaustively"])
+    bench.run(__name__, "rdx_select", dict(W=3, D=1, N1=1, Rules=rules, Below=below), ["equals_model_exhaustively"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rays that cannot have a hit are dropped, each for its reason and where that counts; all others pass as they are."""
+"""Rays that cannot have a hit are dropped, each for its reason and where that counts; all others queue as they are."""
 
 import cocotb
 import pytest
@@ -8,7 +8,9 @@ from cocotb.triggers import FallingEdge, ReadOnly, with_timeout
 import bench
 import streams
 import streams_extra
+from raydix.cells import subdivide
 from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, DEPTH_WIDTH, PIXEL_WIDTH, SURFACE_WIDTH
+from raydix.kernel import words, zeros
 from raydix.outside import beyond
 
 LEAST, MOST = bench.low(COORD_WIDTH), bench.high(COORD_WIDTH)
@@ -56,21 +58,28 @@ def rays(dut, random, count):
         yield ray | {"box": box}, segment | {"b": coefficients(random, width, degree)}
 
 
-def reason(ray, segment, rootless, boxes):
+def mixed(levels, b):
+    """Some cell after so many halvings has control points of both signs."""
+    degree = len(b) - 1
+    cells = zeros((degree << levels) + 1)
+    cells[: degree + 1] = words(b)
+    subdivide(cells, degree, levels)
+    return any(len({int(v) > 0 for v in cells[i : i + degree + 1]}) == 2 for i in range(0, degree << levels, degree))
+
+
+def reason(levels, ray, segment, rootless, boxes):
     """Why a ray is dropped; 0 where it is not."""
-    signs = {b > 0 for b in segment["b"]}
-    if rootless and len(signs) == 1:
+    if rootless and not mixed(levels, segment["b"]):
         return ROOTLESS
     axes = zip(segment["start"], segment["stop"], ray["box"], strict=True)
     return BEYOND if boxes and any(box and beyond(h, e, box) for h, e, box in axes) else 0
 
 
 async def drops(dut, found):
-    """Record what is dropped: (reason, lowest bit of the row)."""
+    """Record what is dropped: (reason, lowest bits of the row)."""
     while True:
         await ReadOnly()
         if dut.rootless_o.value == 1 or dut.beyond_o.value == 1:
-            assert dut.ray_valid_o.value == 0
             found.append((int(dut.rootless_o.value) | int(dut.beyond_o.value) << 1, int(dut.row_o.value)))
         await FallingEdge(dut.clk_i)
 
@@ -79,7 +88,8 @@ async def sift(dut, random, items, rootless, boxes, idle, stall):
     """All of ``items`` through the design; reasons of those that were dropped."""
     dut.rootless_i.value, dut.boxes_i.value = rootless, boxes
     structs = {"ray_o": bench.RAY, "segment_o": bench.segment(bench.parameter(dut, "W"), bench.parameter(dut, "D"))}
-    why = [reason(*item, rootless, boxes) for item in items]
+    levels = bench.parameter(dut, "Levels")
+    why = [reason(levels, *item, rootless, boxes) for item in items]
     passed = [dict(zip(structs, item, strict=True)) for item, w in zip(items, why, strict=True) if not w]
     sink = streams_extra.sink(dut, random, stall, "ray_", structs)
     found = []
@@ -89,7 +99,7 @@ async def sift(dut, random, items, rootless, boxes, idle, stall):
     given = cocotb.start_soon(feed)
     await with_timeout(cocotb.start_soon(sink.take(len(passed))), 10 * (1000 + 40 * len(items)), "ns")
     await with_timeout(given, 10 * (1000 + 40 * len(items)), "ns")
-    for _ in range(3):
+    for _ in range(20):
         await FallingEdge(dut.clk_i)
     watch.cancel()
     streams_extra.compare(sink.port, passed, sink.received)
@@ -118,49 +128,72 @@ async def equals_model(dut, rootless, boxes):
 
 
 @cocotb.test
-async def a_ray_a_clock(dut):
-    """Without stalls a ray is taken in every clock; dropped ones do not wait for ready."""
+async def a_ray_a_clock_until_full(dut):
+    """A ray is taken in every clock, dropped or not, until as many as the queue holds wait; who leaves makes room."""
     random = bench.rng()
     await start(dut)
-    items = list(rays(dut, random, 200))
-    dropped = [item for item in items if reason(*item, 1, 1)]
     dut.rootless_i.value = dut.boxes_i.value = 1
-    for ready, some in ((1, items), (0, dropped)):
-        dut.ray_ready_i.value = ready
-        ports = [bench.Port(dut, "ray_i", bench.RAY)]
-        ports.append(bench.Port(dut, "segment_i", bench.segment(bench.parameter(dut, "W"), bench.parameter(dut, "D"))))
-        dut.ray_valid_i.value = 1
-        for item in some:
-            for port, value in zip(ports, item, strict=True):
+    queue, levels = bench.parameter(dut, "Queue"), bench.parameter(dut, "Levels")
+    items = list(rays(dut, random, 60 * queue))
+    kept = sum(not reason(levels, *item, 1, 1) for item in items)
+    assert kept > 3 * queue and len(items) - kept > queue
+    ports = [bench.Port(dut, "ray_i", bench.RAY)]
+    ports.append(bench.Port(dut, "segment_i", bench.segment(bench.parameter(dut, "W"), bench.parameter(dut, "D"))))
+    waiting, quiet, latency = 0, 0, levels * ((bench.parameter(dut, "D") + 1) // 2) + 2
+    await FallingEdge(dut.clk_i)
+    for ready, end in ((0, latency + 5), (1, 0)):
+        dut.ray_ready_i.value, quiet = ready, 0
+        while quiet < end if end else items:
+            dut.ray_valid_i.value = 1
+            for port, value in zip(ports, items[0], strict=True):
                 port.write(value)
             await ReadOnly()
-            assert dut.ray_ready_o.value == 1
+            taken = dut.ray_ready_o.value == 1
+            dropped = dut.rootless_o.value == 1 or dut.beyond_o.value == 1
+            left = dut.ray_valid_o.value == 1 and ready
+            assert taken or waiting == queue, f"not taken, {waiting} rays of {queue} are under way"
+            assert waiting <= queue
+            quiet = 0 if taken else quiet + 1
             await FallingEdge(dut.clk_i)
-        dut.ray_valid_i.value = 0
-        await FallingEdge(dut.clk_i)
+            waiting += taken - dropped - left
+            if taken:
+                items.pop(0)
+        assert waiting == queue or ready, "the queue fills up"
+    dut.ray_valid_i.value = 0
 
 
 @cocotb.test
-async def reset_takes_a_ray_away(dut):
-    """After a reset no ray is left, dropped or not."""
+async def reset_takes_rays_away(dut):
+    """After a reset no ray is left, under way or in the queue."""
     random = bench.rng()
     await start(dut)
-    for rootless in (0, 1):
-        dut.rootless_i.value = rootless
+    queue = bench.parameter(dut, "Queue")
+    for clocks in (1, 5, 9, 4 * queue):
         dut.ray_valid_i.value = 1
         bench.Port(dut, "segment_i").write(0)
         bench.Port(dut, "ray_i").write(0)
-        await FallingEdge(dut.clk_i)
+        for _ in range(clocks):
+            await FallingEdge(dut.clk_i)
         dut.ray_valid_i.value = 0
+        assert clocks < queue or (dut.ray_valid_o.value == 1 and dut.ray_ready_o.value == 0)
         dut.rst_ni.value = 0
-        assert (dut.ray_valid_o.value, dut.rootless_o.value) == (1 - rootless, rootless)
         await FallingEdge(dut.clk_i)
-        assert dut.ray_valid_o.value == 0 and dut.rootless_o.value == 0
         dut.rst_ni.value = 1
+        for _ in range(20):
+            assert dut.ray_valid_o.value == 0 and dut.rootless_o.value == 0
+            await FallingEdge(dut.clk_i)
     await sift(dut, random, list(rays(dut, random, 50)), 1, 1, 0.2, 0.2)
 
 
-@pytest.mark.parametrize("parameters", [dict(W=36, D=4), dict(W=36, D=2), dict(W=16, D=2)], ids=bench.label)
+SETS = [
+    dict(W=36, D=4, Levels=3, Queue=32),
+    dict(W=36, D=2, Levels=1, Queue=16),
+    dict(W=16, D=2, Levels=0, Queue=16),
+    dict(W=24, D=4, Levels=2, Queue=64),
+]
+
+
+@pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_sift(parameters):
-    """Quartics, quadrics, and narrow control points."""
+    """Quartics, quadrics, narrow control points; none to three halvings."""
     bench.run(__name__, "rdx_sift", parameters)

@@ -16,8 +16,8 @@ BOXES = bench.Struct(("box", BOX_WIDTH, 3))
 
 
 def shape(dut):
-    """N1, W, D, HalveStages, Wait."""
-    return [bench.parameter(dut, name) for name in ("N1", "W", "D", "HalveStages", "Wait")]
+    """N1, W, D, HalveStages, Wait, Below."""
+    return [bench.parameter(dut, name) for name in ("N1", "W", "D", "HalveStages", "Wait", "Below")]
 
 
 def stimuli(dut, count):
@@ -30,8 +30,8 @@ def stimuli(dut, count):
 
 
 def model(dut, item):
-    """Boundary values, mask of cells outside, chosen cell."""
-    n1, _, degree, *_ = shape(dut)
+    """Control points of the cells, mask of cells outside, chosen cell."""
+    n1, _, degree, *_, below = shape(dut)
     box, segment = item["box_i"]["box"], item["segment_i"]
     cells = [*segment["b"], *[0] * ((1 << n1) * degree - degree)]
     subdivide(cells, degree, n1)
@@ -39,13 +39,14 @@ def model(dut, item):
     state[BOX : BOX + 3], state[C : C + 6] = box, segment["start"] + segment["stop"]
     outside = outside_cells(state, [0] * ((1 << n1) + 1), n1)
     at = item["pick"] * degree
-    return cells, outside, cell(segment, item["pick"], n1) | dict(b=cells[at : at + degree + 1])
+    chosen = cell(segment, item["pick"], n1) | dict(b=cells[at : at + degree + 1])
+    return [value - below for value in cells], outside, chosen
 
 
 @cocotb.test
 async def equals_model(dut):
     """An item a clock: cells and masks after N1*HalveStages clocks, Wait later the choice, then the cell."""
-    n1, width, degree, stages, wait = shape(dut)
+    n1, width, degree, stages, wait, _ = shape(dut)
     segment = bench.segment(width, degree)
     structs = dict(box_i=BOXES, segment_i=segment, cell_o=segment)
     items = list(stimuli(dut, 300))
@@ -96,6 +97,8 @@ class Numbered(dict):
 
 SETS = [
     dict(N1=3, W=36, D=4, HalveStages=2, Wait=1),
+    dict(N1=2, W=36, D=2, HalveStages=1, Wait=3, Below=1),
+    dict(N1=1, W=16, D=3, HalveStages=0, Wait=3, Below=1),
     dict(N1=1, W=16, D=2, HalveStages=1, Wait=3),
     dict(N1=4, W=48, D=3, HalveStages=0, Wait=5),
 ]
@@ -103,5 +106,5 @@ SETS = [
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_split(parameters):
-    """The reference; two cells; sixteen without registers in the halvers."""
+    """The reference; less by one, for signs; two cells; sixteen without registers in the halvers."""
     bench.run(__name__, "rdx_split", parameters)

@@ -377,6 +377,8 @@ async def indicator_is_that_at_the_ends(dut):
 SETS = [
     dict(N1=3, K=8, W=36, D=4, Rules=BOTH),
     dict(N1=3, K=8, W=36, D=4, Rules=CERTIFIED_ONLY, HalveStages=0),
+    dict(N1=3, K=8, W=36, D=4, Rules=CERTIFIED_ONLY),
+    dict(N1=1, K=24, W=36, D=2, Rules=CERTIFIED_ONLY),
     dict(N1=3, K=8, W=36, D=4, Rules=PAPER_ONLY, HalveStages=4),
     dict(N1=1, K=32, W=16, D=2, Rules=BOTH),
     dict(N1=2, K=12, W=48, D=3, Rules=BOTH, HalveStages=1),

@@ -11,24 +11,25 @@ from raydix.formats import PIXEL_WIDTH
 
 @cocotb.test
 @cocotb.parametrize(most=(1, 7, 1 << PIXEL_WIDTH))
-async def counts_both_lines(dut, most):
-    """Random additions and verdicts of both lines in one clock, never more verdicts than pixels; often to zero."""
-    random, width = bench.rng(most), bench.parameter(dut, "Verdicts")
+async def counts_all_lines(dut, most):
+    """Random additions and verdicts of all lines in one clock, never more verdicts than pixels; often to zero."""
+    random, width, lines = bench.rng(most), bench.parameter(dut, "Verdicts"), bench.parameter(dut, "Lines")
     dut.add_i.value = dut.verdict_i.value = 0
     await bench.start(dut)
-    waiting, zeros, full = [0, 0], 0, 0
+    waiting, zeros, full = [0] * lines, 0, 0
     for clock in range(9000):
         add = max(waiting) < (most // 2 if clock < 500 else 8) and random.random() < 0.5
-        row, count = random.getrandbits(1), random.randint(1, min(most, most if clock < 500 else 9))
+        row, count = random.randrange(4), random.randint(1, min(most, most if clock < 500 else 9))
         if clock in (0, 1) and most > 4000:
-            add, row, count = True, clock, most
+            add, row, count = True, clock + 2, most
         dut.add_i.value, dut.add_row_i.value, dut.add_count_i.value = int(add), row, count - 1
         if add:
-            waiting[row] += count
+            waiting[row % lines] += count
         verdicts = rows = 0
         for bit in range(width):
-            of = random.getrandbits(1)
-            rows |= of << bit
+            row = random.randrange(4)
+            rows |= row << 2 * bit
+            of = row % lines
             if waiting[of] and random.random() < (0.8 if clock // 64 % 2 else 0.1):
                 verdicts |= 1 << bit
                 waiting[of] -= 1
@@ -42,10 +43,10 @@ async def counts_both_lines(dut, most):
 
 
 @cocotb.test
-@cocotb.parametrize(row=(0, 1))
+@cocotb.parametrize(row=(0, 1, 3))
 async def counts_far(dut, row):
     """Rows of any width, then 64 of 4,096 pixels; then as many verdicts: zero with the last and not before."""
-    random, width = bench.rng(row), bench.parameter(dut, "Verdicts")
+    random, width, lines = bench.rng(row), bench.parameter(dut, "Verdicts"), bench.parameter(dut, "Lines")
     dut.add_i.value = dut.verdict_i.value = 0
     await bench.start(dut)
     for counts in ([random.randint(1, 1 << PIXEL_WIDTH) for _ in range(20)], [1 << PIXEL_WIDTH] * 64):
@@ -54,23 +55,24 @@ async def counts_far(dut, row):
             dut.add_count_i.value = count - 1
             await FallingEdge(dut.clk_i)
         dut.add_i.value = 0
-        dut.verdict_row_i.value = row * ((1 << width) - 1)
+        dut.verdict_row_i.value = sum(row << 2 * bit for bit in range(width))
         left = sum(counts)
         while left:
-            assert int(dut.zero_o.value) == 2 - row, f"{left} pixels wait"
+            assert int(dut.zero_o.value) == (1 << lines) - 1 - (1 << row % lines), f"{left} pixels wait"
             dut.verdict_i.value = (1 << min(left, width)) - 1
             left -= min(left, width)
             await FallingEdge(dut.clk_i)
         dut.verdict_i.value = 0
-        assert int(dut.zero_o.value) == 3
+        assert int(dut.zero_o.value) == (1 << lines) - 1
 
 
 @cocotb.test
 async def reset_zeroes(dut):
-    """A reset of a clock sets both counts to 0."""
+    """A reset of a clock sets all counts to 0."""
+    lines = bench.parameter(dut, "Lines")
     dut.add_i.value = dut.verdict_i.value = 0
     await bench.start(dut)
-    for row in range(2):
+    for row in range(lines):
         dut.add_i.value, dut.add_count_i.value, dut.add_row_i.value = 1, 5, row
         await FallingEdge(dut.clk_i)
     assert int(dut.zero_o.value) == 0
@@ -78,10 +80,10 @@ async def reset_zeroes(dut):
     dut.rst_ni.value = 0
     await FallingEdge(dut.clk_i)
     dut.rst_ni.value = 1
-    assert int(dut.zero_o.value) == 3
+    assert int(dut.zero_o.value) == (1 << lines) - 1
 
 
-@pytest.mark.parametrize("verdicts", [3, 4])
-def test_tally(verdicts):
-    """The processor's four verdicts a clock, and three."""
-    bench.run(__name__, "rdx_tally", dict(Verdicts=verdicts))
+@pytest.mark.parametrize("verdicts, lines", [(4, 4), (3, 2)])
+def test_tally(verdicts, lines):
+    """The processor's four verdicts a clock of four lines, and three of two."""
+    bench.run(__name__, "rdx_tally", dict(Verdicts=verdicts, Lines=lines))

@@ -11,9 +11,9 @@ RATES = (0.0, 0.3, 0.8)
 
 
 def make_rows(random, limits, count):
-    """(first column, last column, lowest bit of the number, near plane) of rows."""
+    """(first column, last column, lowest bits of the number, near plane) of rows."""
     return [
-        (*looks.columns(random, width), random.getrandbits(1), random.choice(limits.depths))
+        (*looks.columns(random, width), random.getrandbits(2), random.choice(limits.depths))
         for width in looks.widths(random, count)
     ]
 
@@ -103,7 +103,7 @@ async def no_gap(dut, share):
     limits.depths = (0, 1, looks.FAR - 1)  # all of them hide
     await bench.start(dut)
     for width in (1, 2, 3, 4, 9):
-        rows = [(x0 := random.randrange(4000), x0 + width - 1, random.getrandbits(1), looks.FAR) for _ in range(8)]
+        rows = [(x0 := random.randrange(4000), x0 + width - 1, random.getrandbits(2), looks.FAR) for _ in range(8)]
         starts, left = await walk(dut, random, rows, limits, stall=share)  # hidden ones do not wait for ready
         period = max(3, width)
         assert starts == [starts[0] + period * i for i in range(8)], starts

@@ -43,7 +43,7 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
     parser.add_argument("--k-stop", type=int, metavar="K", help="steps to a hit in this frame (default: all)")
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
-    parser.add_argument("--units", type=int, metavar="U", help="step units in a ring of the RTL (default: 8, at most K)")
+    parser.add_argument("--units", type=int, metavar="U", help="step units of an RTL ring (default: 8, at most K)")
     parser.add_argument("--rings", type=int, default=1, metavar="N", help="rings side by side (default: 1)")
     parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
     parser.add_argument(

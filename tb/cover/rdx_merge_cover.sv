@@ -3,25 +3,28 @@
 `default_nettype none
 `include "rdx_cover.svh"
 
-module rdx_merge_cover (
-    input wire logic       clk_i,
-    input wire logic       rst_ni,
-    input wire logic [1:0] valid_i,
-    input wire logic       ready_i,
-    input wire logic       held_q,
-    input wire logic       turn_q,
-    input wire logic       chosen
+module rdx_merge_cover #(
+    parameter  int unsigned Count = 2,
+    localparam int unsigned Bits  = Count > 1 ? $clog2(Count) : 1
+) (
+    input wire logic             clk_i,
+    input wire logic             rst_ni,
+    input wire logic [Count-1:0] valid_i,
+    input wire logic             ready_i,
+    input wire logic [ Bits-1:0] turn_q,
+    input wire logic [ Bits-1:0] chosen
 );
-  for (genvar i = 0; i < 2; i++) begin : gen_stream
-    `RDX_COVER_RUN(alone, valid_i == 2'b01 << i)
-    `RDX_COVER_RUN(first_of_both, &valid_i && chosen == i)
-    `RDX_COVER_RUN(stalled, valid_i[i] && chosen == i && !ready_i)
-    `RDX_COVER_RUN(out_of_turn, valid_i[i] && chosen == i && turn_q != i)
+  if (Count > 1) begin : gen_several
+    for (genvar i = 0; i < Count; i++) begin : gen_stream
+      `RDX_COVER_RUN(alone, valid_i == Count'(1) << i)
+      `RDX_COVER_RUN(first_of_all, &valid_i && chosen == Bits'(i))
+      `RDX_COVER_RUN(stalled, valid_i[i] && chosen == Bits'(i) && !ready_i)
+      `RDX_COVER_RUN(out_of_turn, valid_i[i] && chosen == Bits'(i) && turn_q != Bits'(i))
+    end
+    `RDX_COVER_RUN(none, valid_i == '0)
   end
-  `RDX_COVER_RUN(other_comes_while_held, held_q && &valid_i)
-  `RDX_COVER_RUN(neither, valid_i == '0)
 endmodule
 
-bind rdx_merge rdx_merge_cover u_cover (.*);
+bind rdx_merge rdx_merge_cover #(.Count(Count)) u_cover (.*);
 
 `default_nettype wire
