@@ -95,8 +95,8 @@ def ring(parameters, always, **rest):
             "leave_q.status == Idle && enter;",
             "(leave_q.status == Idle || leave_q.status == Again) && enter;",
         ),
-        ("rdx_ring", "record.last ? Idle : Again", "record.last ? Idle : back.status"),
-        ("rdx_ring", "back.roots > 1 &&", "back.roots > 0 &&"),
+        ("rdx_leave", "record.last ? Idle : Again", "record.last ? Idle : status"),
+        ("rdx_leave", "control_i.roots > 1 &&", "control_i.roots > 0 &&"),
     )
     if always:
         says = "the last record of a ray comes in time where every record is taken at once"
@@ -109,9 +109,11 @@ def ring(parameters, always, **rest):
         )
     values = parameters | {"Always": always}
     short = ("rdx_pkg", "int unsigned StepsWidth = 16;", "int unsigned StepsWidth = 2;")
+    narrow = ("rdx_pkg", "int unsigned LimitWidth = 18;", "int unsigned LimitWidth = 2;")
     return Proof(
-        "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short,), stages=3, depth=45, **rest
-    )
+        "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short, narrow),
+        stages=3, depth=45, **rest,
+    )  # fmt: skip
 
 
 def stream(top, parameters, *broken, method="induction 2", **rest):

@@ -74,7 +74,10 @@ async def reset_empties(dut):
     await through(dut, shape, random, 0.1, 0.2, 40)
 
 
-CASES = [dict(N1=3, K=8, W=36, D=4, U=2, Rules=ring.BOTH, Limit=1), dict(N1=2, K=6, W=24, D=2, U=1, Rules=ring.CERTIFIED)]
+CASES = [
+    dict(N1=3, K=8, W=36, D=4, U=2, Rules=ring.BOTH, Limit=1),
+    dict(N1=2, K=6, W=24, D=2, U=1, Rules=ring.CERTIFIED),
+]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)

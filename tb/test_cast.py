@@ -66,9 +66,9 @@ async def cast(dut, random, frame, skips, share, stall):
 def filled(frame, records, limits):
     """The records, with those of rays that have none: hidden ones the golden model's, others an end without a hit.
 
-    A ray with a limit has no hit behind it; it gets those that the golden model has there, and its steps. Also the lowest
-    bits of the rows of pixels that are hidden and of the other ones without a ray, and of how many rays with a limit hits
-    are missing, and how many of them end without a hit.
+    A ray with a limit has no hit behind it; it gets those that the golden model has there, and its steps. Also the
+    lowest bits of the rows of pixels that are hidden and of the other ones without a ray, and of how many rays with a
+    limit hits are missing, and how many of them end without a hit.
     """
     there = {(r["surface"], r["x"], r["y"]) for r in records}
     out, hidden, empty, cut = list(records), [], [], [0, 0]

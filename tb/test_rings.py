@@ -82,11 +82,12 @@ async def reset_empties(dut):
     await ring.trace_all(dut, shape, rays, random, 0.0, 0.2)
 
 
+VECTOR = dict(W=VECTOR_WIDTH, D=1, U=1, Rings=2)
 CASES = [
     dict(N1=3, K=4, W=36, D=2, U=1, Rings=4, Rules=ring.CERTIFIED, Limit=1),
     dict(N1=2, K=5, W=24, D=4, U=2, Rings=3, Rules=ring.BOTH),
     dict(N1=1, K=6, W=36, D=2, U=6, Rings=1, Rules=ring.CERTIFIED),
-    dict(N1=1, K=6, W=VECTOR_WIDTH, D=1, U=1, Rings=2, Rules=ring.CERTIFIED, HalveStages=1, Lanes=1, General=0, Limit=1),
+    dict(N1=1, K=6, **VECTOR, Rules=ring.CERTIFIED, HalveStages=1, Lanes=1, General=0, Limit=1),
 ]
 
 

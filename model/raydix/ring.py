@@ -76,7 +76,7 @@ def limit_of(depth):
 
 
 def behind(depth, limit):
-    """A cell that begins at this depth lies behind a limit: it ends an item of the RTL. The golden model has no limits."""
+    """A cell that begins at this depth lies behind a limit: an item of the RTL ends. The golden model has no limits."""
     return limit_of(depth) > limit
 
 

@@ -46,7 +46,8 @@ module formal_ring #(
       .U(U),
       .Rules(Rules),
       .HalveStages(HalveStages),
-      .Lanes(Lanes)
+      .Lanes(Lanes),
+      .Limit(1'b1)
   ) u_ring (
       .clk_i,
       .rst_ni,
@@ -66,7 +67,7 @@ module formal_ring #(
   `GIVEN(g_no_reset, !began_q || rst_ni)
   `GIVEN(g_roots, ray_i.roots >= 1 && ray_i.roots <= 4)
   wire mark = ray_i.x[0];
-  `GIVEN(g_mark, ray_i.box[0][0] == mark && segment_i.ends.start[0][0] == mark)
+  `GIVEN(g_mark, ray_i.box[0][0] == mark && segment_i.ends.start[0][0] == mark && ray_i.limit[0] == mark)
   `GIVEN(g_ready, !Always || hit_ready_i)
   wire take = rst_ni && ray_valid_i && ray_ready;
   wire give = rst_ni && hit_valid && hit_ready_i;
@@ -121,12 +122,17 @@ module formal_ring #(
   end
 
   // the record is of the item that leaves, and its memory is the ray's
-  `LEMMA(0, p_memory, !(u_ring.give && rst_ni) || u_ring.first.x[0] == u_ring.back.box[0][0])
+  `LEMMA(0, p_memory, !(u_ring.u_leave.offer && rst_ni) || u_ring.first.origin.x[0] == u_ring.back.box[0][0])
+  // so is the limit that any item is compared with
+  `LEMMA(
+      0, p_limit,
+      !(rst_ni && u_ring.filled && u_ring.back.status != Idle) || u_ring.first.origin.limit[0] == u_ring.back.box[0][0])
   // what begins a descent has its ray's own segment
   wire begins = u_ring.enter_q.status == Run && u_ring.enter_q.level == '0;
   `LEMMA(0, p_segment,
          !(rst_ni && u_ring.filled && begins) || u_ring.enter_segment_q.ends.start[0][0] == u_ring.enter_q.box[0][0])
   `REACH(r_restart, rst_ni && u_ring.filled && begins && u_ring.enter_q.steps != '0 && u_ring.enter_q.box[0][0])
+  `REACH(r_ended, rst_ni && u_ring.u_leave.ended_o && u_ring.back.box[0][0])
   `REACH(r_last, give && hit.x[0] && hit.last && hit.hit)
   `REACH(r_more, give && hit.x[0] && !hit.last)
 
