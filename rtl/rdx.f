@@ -30,6 +30,7 @@ rdx_scale.sv
 rdx_settle.sv
 rdx_step.sv
 rdx_slots.sv
+rdx_leave.sv
 rdx_ring.sv
 rdx_rings.sv
 rdx_fdiff.sv

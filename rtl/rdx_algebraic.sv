@@ -18,6 +18,7 @@ module rdx_algebraic #(
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter bit Sift = 1'b0,  // rays that cannot have a hit do not enter the ring
+    parameter bit Limit = 1'b0,  // items behind their ray's limit end
     localparam int unsigned Quads = D == 4 ? 9 : 3
 ) (
     input  wire logic                  clk_i,
@@ -33,6 +34,7 @@ module rdx_algebraic #(
     input  wire logic                  hit_ready_i,
     output rdx_pkg::hit_t              hit_o,
     output logic                 [5:0] steps_o,
+    output logic                 [5:0] ended_o,
     input  wire logic                  rootless_i,
     input  wire logic                  boxes_i,
     output logic                       rootless_o,
@@ -101,7 +103,8 @@ module rdx_algebraic #(
       .U(U),
       .Rings(Rings),
       .Rules(Rules),
-      .HalveStages(HalveStages)
+      .HalveStages(HalveStages),
+      .Limit(Limit)
   ) u_rings (
       .clk_i,
       .rst_ni,
@@ -114,7 +117,8 @@ module rdx_algebraic #(
       .hit_valid_o,
       .hit_ready_i,
       .hit_o,
-      .steps_o
+      .steps_o,
+      .ended_o
   );
 
 endmodule

@@ -22,7 +22,8 @@ module rdx_cast #(
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
     parameter int unsigned Rings = 1,
-    parameter int unsigned VectorRings = 1
+    parameter int unsigned VectorRings = 1,
+    parameter bit Limit = 1'b1  // limits are given
 ) (
     input  wire logic                     clk_i,
     input  wire logic                     rst_ni,
@@ -40,6 +41,7 @@ module rdx_cast #(
     output logic                    [2:0] skipped_o,
     output rdx_pkg::line_t          [2:0] skipped_row_o,
     output logic                    [5:0] steps_o,
+    output logic                    [5:0] ended_o,
     output logic                          hit_valid_o,
     input  wire logic                     hit_ready_i,
     output rdx_pkg::hit_t                 hit_o
@@ -55,7 +57,7 @@ module rdx_cast #(
   // [0]: algebraic surfaces, [1]: vector sums
   logic [1:0] ready, hit_valid, hit_ready;
   hit_t hits[2];
-  logic [5:0] steps[2];
+  logic [5:0] steps[2], ended[2];
 
   wire modes_t modes =
   '{first_level: 5'(6'(K) - frame_i.k_stop), boxes: frame_i.skip.boxes, early: frame_i.skip.early}
@@ -97,7 +99,8 @@ module rdx_cast #(
         .U(U),
         .Rings(Rings),
         .Rules(Rules),
-        .Sift(1'b1)
+        .Sift(1'b1),
+        .Limit(Limit)
     ) u_algebraic (
         .clk_i,
         .rst_ni,
@@ -112,6 +115,7 @@ module rdx_cast #(
         .hit_ready_i(hit_ready[0]),
         .hit_o(hits[0]),
         .steps_o(steps[0]),
+        .ended_o(ended[0]),
         .rootless_i(frame_i.skip.rootless),
         .boxes_i(frame_i.skip.boxes),
         .rootless_o(skipped_o[1]),
@@ -124,6 +128,7 @@ module rdx_cast #(
     assign hit_valid[0] = 1'b0;
     assign hits[0] = '0;
     assign steps[0] = '0;
+    assign ended[0] = '0;
     assign skipped_o[2:1] = '0;
     assign skipped_row_o[2:1] = '0;
     wire unused = &{1'b0, hit_ready[0], quartic, quads[0], quads[1], quads[2]};
@@ -137,7 +142,8 @@ module rdx_cast #(
         .Rings(VectorRings),
         .Rules(Rules),
         .Lanes(Lanes),
-        .General(Vecsum != VecsumHelix)
+        .General(Vecsum != VecsumHelix),
+        .Limit(Limit)
     ) u_vector (
         .clk_i,
         .rst_ni,
@@ -151,7 +157,8 @@ module rdx_cast #(
         .hit_valid_o(hit_valid[1]),
         .hit_ready_i(hit_ready[1]),
         .hit_o(hits[1]),
-        .steps_o(steps[1])
+        .steps_o(steps[1]),
+        .ended_o(ended[1])
     );
   end else begin : gen_no_vector
     assign ready[1] = 1'b0;
@@ -159,6 +166,7 @@ module rdx_cast #(
     assign hit_valid[1] = 1'b0;
     assign hits[1] = '0;
     assign steps[1] = '0;
+    assign ended[1] = '0;
     wire unused = &{1'b0, hit_ready[1], form};
   end
 
@@ -175,6 +183,7 @@ module rdx_cast #(
       .data_o (hit_o)
   );
   assign steps_o = steps[0] + steps[1];
+  assign ended_o = ended[0] + ended[1];
   wire unused_frame = &{1'b0, frame_i};
 
 endmodule

@@ -80,7 +80,7 @@ module rdx_core #(
   assign raster_ready = ready[vector];
 
   if (D > 0) begin : gen_algebraic
-    logic [5:0] steps;
+    logic [5:0] steps, ended;
     logic [1:0] sifted;
     line_t sifted_row;
     rdx_algebraic #(
@@ -106,13 +106,14 @@ module rdx_core #(
         .hit_ready_i(hit_ready[0]),
         .hit_o(hits[0]),
         .steps_o(steps),
+        .ended_o(ended),
         .rootless_i(1'b0),
         .boxes_i(1'b0),
         .rootless_o(sifted[0]),
         .beyond_o(sifted[1]),
         .sifted_row_o(sifted_row)
     );
-    wire unused = &{1'b0, steps, sifted, sifted_row};
+    wire unused = &{1'b0, steps, ended, sifted, sifted_row};
   end else begin : gen_no_algebraic
     assign ready[0] = 1'b0;
     assign hit_valid[0] = 1'b0;
@@ -121,7 +122,7 @@ module rdx_core #(
   end
 
   if (Vecsum != VecsumNone) begin : gen_vector
-    logic [5:0] steps;
+    logic [5:0] steps, ended;
     rdx_vector #(
         .N1(N1),
         .K(K),
@@ -143,9 +144,10 @@ module rdx_core #(
         .hit_valid_o(hit_valid[1]),
         .hit_ready_i(hit_ready[1]),
         .hit_o(hits[1]),
-        .steps_o(steps)
+        .steps_o(steps),
+        .ended_o(ended)
     );
-    wire unused = &{1'b0, steps};
+    wire unused = &{1'b0, steps, ended};
   end else begin : gen_no_vector
     assign ready[1] = 1'b0;
     assign vector_idle = 1'b1;

@@ -40,12 +40,12 @@ module rdx_count (
       counters_o.skipped_rootless <= counters_o.skipped_rootless + 32'(events_q.rootless);
       counters_o.skipped_depth <= counters_o.skipped_depth + 32'(events_q.hidden);
       counters_o.skipped_boxes <= counters_o.skipped_boxes + 32'(events_q.beyond);
+      counters_o.skipped_cells <= counters_o.skipped_cells + 32'(events_q.ended);
       counters_o.skipped_early <= counters_o.skipped_early + 32'(early_q);
       counters_o.visible <= counters_o.visible + 32'(events_q.visible);
       counters_o.layers_lost <= counters_o.layers_lost + 32'(events_q.lost);
       counters_o.given_up <= counters_o.given_up + 32'(given_up_q);
       counters_o.stalled <= counters_o.stalled + 32'(events_q.stalled);
-      counters_o.skipped_cells <= '0;
     end
   end
 

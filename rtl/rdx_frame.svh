@@ -6,7 +6,7 @@
 // What may be skipped; each bit off leaves the picture as it is.
 typedef struct packed {
   logic early;      // items that are done leave the ring at once
-  logic depth;      // rays, and cells, behind the nearest opaque hit so far
+  logic depth;      // rays, and items in the rings, behind the nearest opaque hit so far
   logic rootless;   // rays on whose segment no root can be
   logic boxes;      // cells beyond a face of the box
   logic rectangle;  // pixels outside of a surface's screen rectangle
@@ -82,7 +82,7 @@ typedef struct packed {
   logic [31:0] skipped_rootless;   // rays without a root on the segment
   logic [31:0] skipped_depth;      // rays behind the nearest opaque hit
   logic [31:0] skipped_boxes;      // cells beyond a face of the box
-  logic [31:0] skipped_cells;      // cells without a root
+  logic [31:0] skipped_cells;      // items ended in a ring, behind the nearest opaque hit
   logic [31:0] skipped_early;      // turns of the ring saved by items that left at once
   logic [31:0] visible;            // pixels that were shaded
   logic [31:0] layers_lost;        // hits dropped because a pixel had more than Layers
@@ -131,6 +131,7 @@ typedef struct packed {
   logic                rootless;   // a ray without a root on its segment
   logic                beyond;     // a ray beyond a face of the box
   logic [5:0]          steps;      // items that take a step
+  logic [5:0]          ended;      // items that end in a ring, behind the nearest opaque hit
   logic                visible;    // a layer that is shaded
   logic                lost;       // a hit that would have been seen had no room
   logic                stalled;    // the receiver holds a beat

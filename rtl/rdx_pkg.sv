@@ -14,6 +14,8 @@ package rdx_pkg;
   localparam int unsigned CoordAccWidth = 48;
   // s1p31: camera depth in units of the frame's scale; never negative
   localparam int unsigned DepthWidth = 32;
+  // u0p18: depth of the nearest opaque hit, floor; all ones: there is none
+  localparam int unsigned LimitWidth = 18;
   // s64p0: accumulator of a quadric's control point, magnitude below 2^62
   localparam int unsigned QuadAccWidth = 64;
   // s36p0: operand of a product; quartic: accumulator / 2^27, half up
@@ -66,6 +68,7 @@ package rdx_pkg;
 
   typedef logic signed [CoordWidth-1:0] coord_t;
   typedef logic signed [DepthWidth-1:0] depth_t;
+  typedef logic [LimitWidth-1:0] limit_t;
   typedef logic signed [QuadAccWidth-1:0] quad_t;
   typedef logic [PixelWidth-1:0] pixel_t;
   typedef logic [1:0] line_t;  // lowest bits of a row: which of the lines at work
@@ -92,46 +95,8 @@ package rdx_pkg;
   // Constants of a vector-sum surface. K is the gain of the angle's CORDIC.
   `include "rdx_form.svh"
 
-  // Status of an item in the ring.
-  typedef enum logic [2:0] {
-    Idle  = 3'd0,  // no item in the slot
-    Run   = 3'd1,  // the next step is to be done
-    Again = 3'd2,  // to be restarted, following t_min
-    Hit   = 3'd3,  // a root stands in t, the segment has shrunk to the point
-    Done  = 3'd4   // no (further) root
-  } status_e;
-
-  // Which ray, and how it is to be searched.
-  typedef struct packed {
-    surface_t   surface;
-    pixel_t     x;
-    pixel_t     y;
-    logic       paper;    // 1: paper rule, 0: certified rule
-    roots_t     roots;    // roots wanted, 1 to 4
-    box_t [2:0] box;      // box exponents of x, y, z
-  } ray_t;
-
-  // What a segment from h to e carries linearly: local coordinates (x, y, z) and camera depth at both ends.
-  typedef struct packed {
-    coord_t [2:0] start;
-    coord_t [2:0] stop;
-    depth_t       depth_start;
-    depth_t       depth_stop;
-  } ends_t;
-
-  // One record of the hit stream. t, depth and point are meaningful where hit = 1.
-  typedef struct packed {
-    surface_t     surface;
-    pixel_t       x;
-    pixel_t       y;
-    logic         hit;      // 1: a root; 0: the ray has no (further) root
-    logic         last;     // the ray's last record
-    logic [31:0]  t;        // digits of t, u0p<n>, right-aligned
-    depth_t       depth;
-    coord_t [2:0] point;
-    logic         enters;   // the indicator is positive before the hit
-    steps_t       steps;    // steps that the ray has taken so far
-  } hit_t;
+  // Rays, items and records
+  `include "rdx_ray.svh"
 
   // Types of the processor around the rings
   `include "rdx_frame.svh"

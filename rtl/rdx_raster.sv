@@ -158,7 +158,7 @@ module rdx_raster #(
   end
 
   always_comb begin
-    ray_o = '{surface: surface_q, x: x_q, y: y_q, paper: paper_q, roots: roots_q, box: box_q};
+    ray_o = '{surface: surface_q, x: x_q, y: y_q, paper: paper_q, roots: roots_q, box: box_q, limit: NoLimit};
     for (int unsigned axis = 0; axis < 3; axis++) begin
       ends_o.start[axis] = coords[2*axis][CoordAccWidth-1-:CoordWidth];
       ends_o.stop[axis]  = coords[2*axis+1][CoordAccWidth-1-:CoordWidth];

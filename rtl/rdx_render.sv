@@ -86,8 +86,7 @@ module rdx_render #(
   );
 
   // ---- rays and hits ----
-  logic hit_valid, hit_ready;
-  logic look, limit_valid;
+  logic hit_valid, hit_ready, look, limit_valid;
   line_t look_row;
   pixel_t look_x;
   depth_t limit;
@@ -104,7 +103,8 @@ module rdx_render #(
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),
       .Rings(Rings),
-      .VectorRings(VectorRings)
+      .VectorRings(VectorRings),
+      .Limit(Surfaces > 1)
   ) u_cast (
       .*,
       .load_valid_i(load_valid),
@@ -120,6 +120,7 @@ module rdx_render #(
       .skipped_o(skipped),
       .skipped_row_o(skipped_row),
       .steps_o(events.steps),
+      .ended_o(events.ended),
       .hit_valid_o(hit_valid),
       .hit_ready_i(hit_ready),
       .hit_o(tap_o)

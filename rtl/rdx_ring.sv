@@ -28,6 +28,7 @@ module rdx_ring #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
+    parameter bit Limit = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
     input  wire logic                  clk_i,
@@ -41,7 +42,8 @@ module rdx_ring #(
     output logic                       hit_valid_o,
     input  wire logic                  hit_ready_i,
     output rdx_pkg::hit_t              hit_o,
-    output logic                 [5:0] steps_o       // items that take a step, a clock ago
+    output logic                 [5:0] steps_o,      // items that take a step, a clock ago
+    output logic                       ended_o       // an item has ended behind its limit, a clock ago
 );
   import rdx_pkg::*;
 
@@ -88,15 +90,14 @@ module rdx_ring #(
 
   // ---- what the items began with ----
   typedef struct packed {
-    surface_t surface;
-    pixel_t   x;
-    pixel_t   y;
+    origin_t  origin;
     segment_t segment;
   } first_t;
   first_t   first;  // of the item that leaves the last unit
   segment_t again_q;  // of the item behind the wrap
   logic enter, filled;  // the place behind the wrap may hold an item; what leaves the last unit has entered the ring
   wire take = ray_valid_i && ray_ready_o;
+  wire origin_t origin = '{surface: ray_i.surface, x: ray_i.x, y: ray_i.y, limit: Limit ? ray_i.limit : NoLimit};
   rdx_slots #(
       .Slots(Slots),
       .Phases(Phases),
@@ -105,7 +106,7 @@ module rdx_ring #(
       .clk_i,
       .rst_ni,
       .take_i  (take),
-      .first_i ('{surface: ray_i.surface, x: ray_i.x, y: ray_i.y, segment: segment_i}),
+      .first_i ('{origin: origin, segment: segment_i}),
       .first_o (first),
       .enter_o (enter),
       .phase_o (phase),
@@ -115,10 +116,9 @@ module rdx_ring #(
   // ---- leaving: hand over the record ----
   control_t back, leave_d, leave_q;
   segment_t back_segment, leave_segment_q;
-  hit_t record;
   localparam type item_t = logic [$bits(control_t)+$bits(segment_t)-1:0];
   item_t last[1], padded[1];
-  logic given;
+  logic behind;
   assign last[0] = {control[U], segment[U]};
   rdx_delay #(
       .T(item_t),
@@ -129,47 +129,30 @@ module rdx_ring #(
       .data_o(padded)
   );
   assign {back, back_segment} = padded[0];
-  wire more_roots = back.roots > 1 && back.pending && !(&back.steps);
-  wire linger = !modes_i.early && back.status == Done && back.level != 5'(K - 1);
-  wire give = filled && (back.status == Hit || (back.status == Done && !linger));
-  assign record = '{
-          surface: first.surface,
-          x: first.x,
-          y: first.y,
-          hit: back.status == Hit,
-          last: back.status == Done || !more_roots,
-          t: 32'(back.t),
-          depth: back_segment.ends.depth_start,
-          point: back_segment.ends.start,
-          enters: back.enters,
-          steps: back.steps
-      };
-  rdx_register #(
-      .W($bits(hit_t))
-  ) u_out (
+  rdx_leave #(
+      .N1(N1),
+      .K(K),
+      .U(U),
+      .Limit(Limit)
+  ) u_leave (
       .clk_i,
       .rst_ni,
-      .valid_i(give),
-      .ready_o(given),
-      .data_i (record),
-      .valid_o(hit_valid_o),
-      .ready_i(hit_ready_i),
-      .data_o (hit_o)
+      .early_i  (modes_i.early),
+      .filled_i (filled),
+      .control_i(back),
+      .ends_i   (back_segment.ends),
+      .origin_i (first.origin),
+      .control_o(leave_d),
+      .ended_o  (behind),
+      .hit_valid_o,
+      .hit_ready_i,
+      .hit_o
   );
-  always_comb begin
-    leave_d = back;
-    if (!filled) begin
-      leave_d.status = Idle;
-    end else if (give && given) begin
-      leave_d.status = record.last ? Idle : Again;
-      leave_d.roots  = back.roots - 1'b1;
-    end
-    if (linger) leave_d.level = 32'(back.level) + U < K ? back.level + 5'(U) : 5'(K - 1);
-  end
   always_ff @(posedge clk_i) begin
     leave_q <= leave_d;
     leave_segment_q <= back_segment;
     again_q <= first.segment;
+    ended_o <= behind;
   end
 
   // ---- entering: a new ray in an empty slot, a restart from the first segment ----

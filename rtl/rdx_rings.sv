@@ -24,6 +24,7 @@ module rdx_rings #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
+    parameter bit Limit = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
     input  wire logic                  clk_i,
@@ -37,7 +38,8 @@ module rdx_rings #(
     output logic                       hit_valid_o,
     input  wire logic                  hit_ready_i,
     output rdx_pkg::hit_t              hit_o,
-    output logic                 [5:0] steps_o       // items that take a step, a clock ago
+    output logic                 [5:0] steps_o,      // items that take a step, a clock ago
+    output logic                 [5:0] ended_o       // items that have ended behind their limit, a clock ago
 );
   import rdx_pkg::*;
 
@@ -83,6 +85,7 @@ module rdx_rings #(
 
   // ---- rings ----
   logic [5:0] steps[Rings];
+  logic [Rings-1:0] ended;
   for (genvar r = 0; r < Rings; r++) begin : gen_ring
     logic ray_valid, ray_ready, hit_valid, hit_ready;
     hit_t hit;
@@ -109,7 +112,8 @@ module rdx_rings #(
         .Rules(Rules),
         .HalveStages(HalveStages),
         .Lanes(Lanes),
-        .General(General)
+        .General(General),
+        .Limit(Limit)
     ) u_ring (
         .clk_i,
         .rst_ni,
@@ -122,7 +126,8 @@ module rdx_rings #(
         .hit_valid_o(hit_valid),
         .hit_ready_i(hit_ready),
         .hit_o(hit),
-        .steps_o(steps[r])
+        .steps_o(steps[r]),
+        .ended_o(ended[r])
     );
     rdx_fifo #(
         .W($bits(hit_t)),
@@ -142,6 +147,7 @@ module rdx_rings #(
     steps_o = '0;
     for (int unsigned r = 0; r < Rings; r++) steps_o = steps_o + steps[r];
   end
+  assign ended_o = 6'($countones(ended));
 
   `RDX_STREAM(a_hit, hit_valid_o, hit_ready_i, hit_o)
 

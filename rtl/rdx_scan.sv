@@ -96,6 +96,7 @@ module rdx_scan #(
   // ---- its pixels ----
   logic step, walk_idle;
   pixel_t ray_x;
+  limit_t ray_limit;
   rdx_walk u_walk (
       .clk_i,
       .rst_ni,
@@ -116,7 +117,8 @@ module rdx_scan #(
       .hidden_row_o,
       .ray_valid_o,
       .ray_ready_i,
-      .ray_x_o(ray_x)
+      .ray_x_o(ray_x),
+      .ray_limit_o(ray_limit)
   );
   always_ff @(posedge clk_i) if (start) row_q <= next_q;
   assign idle_o = walk_idle && !full_q;
@@ -175,7 +177,8 @@ module rdx_scan #(
         y: row_q.y,
         paper: row_q.paper,
         roots: row_q.roots,
-        box: row_q.box
+        box: row_q.box,
+        limit: ray_limit
     };
     for (int unsigned axis = 0; axis < 3; axis++) begin
       ends_o.start[axis] = coords[2*axis][CoordAccWidth-1-:CoordWidth];

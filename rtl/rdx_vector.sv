@@ -15,7 +15,8 @@ module rdx_vector #(
     parameter int unsigned Rings = 1,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned Lanes = 7,
-    parameter bit General = 1'b0
+    parameter bit General = 1'b0,
+    parameter bit Limit = 1'b0  // items behind their ray's limit end
 ) (
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
@@ -29,7 +30,8 @@ module rdx_vector #(
     output logic                       hit_valid_o,
     input  wire logic                  hit_ready_i,
     output rdx_pkg::hit_t              hit_o,
-    output logic                 [5:0] steps_o
+    output logic                 [5:0] steps_o,
+    output logic                 [5:0] ended_o
 );
   import rdx_pkg::*;
 
@@ -64,7 +66,8 @@ module rdx_vector #(
       .Rules(Rules),
       .HalveStages(1),
       .Lanes(Lanes),
-      .General(General)
+      .General(General),
+      .Limit(Limit)
   ) u_rings (
       .clk_i,
       .rst_ni,
@@ -77,7 +80,8 @@ module rdx_vector #(
       .hit_valid_o,
       .hit_ready_i,
       .hit_o,
-      .steps_o
+      .steps_o,
+      .ended_o
   );
 
   // Rays under way. They are far fewer than the counter can hold: the stages of rdx_ends and the slots of the rings.

@@ -33,7 +33,8 @@ module rdx_walk (
     output rdx_pkg::line_t       hidden_row_o,
     output logic                 ray_valid_o,
     input  wire logic            ray_ready_i,
-    output rdx_pkg::pixel_t      ray_x_o
+    output rdx_pkg::pixel_t      ray_x_o,
+    output rdx_pkg::limit_t      ray_limit_o     // the answer
 );
   import rdx_pkg::*;
 
@@ -77,6 +78,7 @@ module rdx_walk (
       answer_row_q <= row_q;
       answer_near_q <= near_q;
       ray_x_o <= answer_x_q;
+      ray_limit_o <= limit_valid_i ? limit_of(limit_i) : NoLimit;
       hidden_row_o <= answer_row_q;
       hidden_q <= limit_valid_i && limit_i < answer_near_q;
     end

@@ -259,13 +259,13 @@ class Struct:
 
 
 _COORD, _DEPTH = -formats.COORD_WIDTH, -formats.DEPTH_WIDTH
-_PLACE = (("surface", formats.SURFACE_WIDTH), ("x", formats.PIXEL_WIDTH), ("y", formats.PIXEL_WIDTH))
+PLACE = (("surface", formats.SURFACE_WIDTH), ("x", formats.PIXEL_WIDTH), ("y", formats.PIXEL_WIDTH))
 _ENDS = (("start", _COORD, 3), ("stop", _COORD, 3), ("depth_start", _DEPTH), ("depth_stop", _DEPTH))
 _SEARCH = (("paper", 1), ("roots", formats.ROOTS_WIDTH), ("box", formats.BOX_WIDTH, 3))
-RAY = Struct(*_PLACE, *_SEARCH)
+RAY = Struct(*PLACE, *_SEARCH, ("limit", formats.LIMIT_WIDTH))
 ENDS = Struct(*_ENDS)
 HIT = Struct(
-    *_PLACE,
+    *PLACE,
     ("hit", 1),
     ("last", 1),
     ("t", 32),

@@ -3,6 +3,7 @@
 
 import bench
 from raydix.formats import DEPTH_WIDTH, PIXEL_WIDTH
+from raydix.ring import NO_LIMIT, limit_of
 
 FAR = (1 << (DEPTH_WIDTH - 1)) - 1
 
@@ -29,6 +30,11 @@ class Limits:
         """A pixel there of a surface that begins at ``near`` has no ray."""
         limit = self.of(row, x)
         return limit is not None and limit < near
+
+    def carried(self, row, x):
+        """The limit that a ray there carries."""
+        limit = self.of(row, x)
+        return NO_LIMIT if limit is None else limit_of(limit)
 
     def asked(self):
         """What is asked for in this clock, settled; None for nothing."""

@@ -30,6 +30,7 @@ def random_rays(random, shape, count):
         ray = ring.random_request(random, shape, number)
         if random.random() < 0.7:
             ray["box"] = [0, 0, 0]
+        ray = ring.with_limit(random, ray, ends)
         given.append((ray, ends, quartic, quads))
         rays.append((ray, ends | {"b": test_product.model(quads, quartic, shape.width, shape.degree)}))
     return given, rays
@@ -73,7 +74,7 @@ async def reset_empties(dut):
     await through(dut, shape, random, 0.1, 0.2, 40)
 
 
-CASES = [dict(N1=3, K=8, W=36, D=4, U=2, Rules=ring.BOTH), dict(N1=2, K=6, W=24, D=2, U=1, Rules=ring.CERTIFIED)]
+CASES = [dict(N1=3, K=8, W=36, D=4, U=2, Rules=ring.BOTH, Limit=1), dict(N1=2, K=6, W=24, D=2, U=1, Rules=ring.CERTIFIED)]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)

@@ -12,16 +12,18 @@ import test_core
 import walking
 from raydix.formats import DEPTH_WIDTH, HEADER_WORDS
 from raydix.golden import trace_golden
+from raydix.ring import behind
 from raydix.rtl import parameters
 from test_core import CONFIG, compiled_frame
 
-FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "k_stop": 0, "ambient": 0, "background": [0, 0, 0]}
+FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "k_stop": CONFIG.k_stop, "ambient": 0}
+FRAME |= {"background": [0, 0, 0]}
 FRAME |= dict.fromkeys(walking.SKIPS, 0)
 HIDDEN, ROOTLESS, BEYOND = range(3)  # reasons
 
 
 async def cast(dut, random, frame, skips, share, stall):
-    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, lowest bits of the row))."""
+    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, bit of the row), items that ended)."""
     dut.frame_i.value = walking.FRAME.pack(FRAME | dict.fromkeys(skips, 1))
     limits, load, hit = (
         looks.Limits(dut, random, share),
@@ -29,8 +31,9 @@ async def cast(dut, random, frame, skips, share, stall):
         bench.Port(dut, "hit_o"),
     )
     limits.depths = tuple(sorted(surface.words[2] & ((1 << DEPTH_WIDTH) - 1) for surface in frame.compiled.surfaces))
-    limits.depths = (0, *limits.depths, looks.FAR)
-    records, without, words, formed = [], [], [], None
+    found = [int(d) for hits in frame.surfaces for d in hits.depth[hits.t >= 0]]
+    limits.depths = (0, *limits.depths, looks.FAR, *random.choices(found, k=12))
+    records, without, words, formed, ended = [], [], [], None, 0
     for surface in frame.compiled.surfaces:
         for y in range(surface.rect[1], surface.rect[3] + 1):
             words += feeding.row([int(w) for w in surface.words], y, surface.is_vector_sum and formed is not surface)
@@ -51,44 +54,69 @@ async def cast(dut, random, frame, skips, share, stall):
         asked = limits.asked()
         if dut.hit_valid_o.value == 1 and dut.hit_ready_i.value == 1:
             records.append(bench.HIT.unpack(hit.read()[0]))
+        ended += int(dut.ended_o.value)
         skipped, rows = int(dut.skipped_o.value), int(dut.skipped_row_o.value)
         without += [(reason, rows >> 2 * reason & 3) for reason in range(3) if skipped >> reason & 1]
         quiet = 0 if words or dut.hit_valid_o.value == 1 or dut.idle_o.value == 0 else quiet + 1
         await FallingEdge(dut.clk_i)
         limits.answer(asked)
-    return records, limits, without
+    return records, limits, without, ended
 
 
 def filled(frame, records, limits):
-    """The records, with those of rays that have none: hidden ones the golden model's, others an end without a hit."""
+    """The records, with those of rays that have none: hidden ones the golden model's, others an end without a hit.
+
+    A ray with a limit has no hit behind it; it gets those that the golden model has there, and its steps. Also the lowest
+    bits of the rows of pixels that are hidden and of the other ones without a ray, and of how many rays with a limit hits
+    are missing, and how many of them end without a hit.
+    """
     there = {(r["surface"], r["x"], r["y"]) for r in records}
-    out, hidden, empty = list(records), [], []
+    out, hidden, empty, cut = list(records), [], [], [0, 0]
     for hits in frame.surfaces:
         x0, y0, x1, y1 = hits.surface.rect
         near = hits.surface.words[HEADER_WORDS - 1] & ((1 << DEPTH_WIDTH) - 1)
         for y in range(y0, y1 + 1):
             for x in range(x0, x1 + 1):
                 place, key = (y - y0, x - x0), {"surface": hits.surface.index, "x": x, "y": y}
+                whole = [
+                    {"hit": 1, "last": 0, "t": int(hits.t[*place, i]), "depth": int(hits.depth[*place, i]),
+                     "point": hits.point[*place, i].tolist(), "enters": int(hits.enters[*place, i])}
+                    for i in range(hits.t.shape[2]) if hits.t[*place, i] >= 0
+                ]  # fmt: skip
                 hides = limits.hides(y & 3, x, near)
                 assert not (hides and tuple(key.values()) in there), f"{key} is hidden and has a ray"
                 if hides:
                     hidden.append(y & 3)
-                    out += [
-                        key | {"hit": 1, "last": 0, "t": int(hits.t[*place, i]), "depth": int(hits.depth[*place, i]),
-                               "point": hits.point[*place, i].tolist(), "enters": int(hits.enters[*place, i])}
-                        for i in range(hits.t.shape[2]) if hits.t[*place, i] >= 0
-                    ]  # fmt: skip
+                    out += [key | hit for hit in whole]
+                elif limits.of(y & 3, x) is not None and tuple(key.values()) in there:
+                    mine = [r for r in out if tuple(r[name] for name in key) == tuple(key.values())]
+                    out = [r for r in out if r not in mine]
+                    limit = limits.carried(y & 3, x)
+                    assert not any(r["hit"] and behind(r["depth"], limit) for r in mine), f"{key}: {limit}, {mine}"
+                    assert mine[-1]["last"] and mine[-1]["steps"] <= hits.steps[*place]
+                    gone = [key | hit for hit in whole if behind(hit["depth"], limit)]
+                    cut = [cut[0] + bool(gone), cut[1] + (not mine[-1]["hit"])]
+                    out += [r | {"last": 0} for r in mine if r["hit"]] + gone
+                    out.append(key | {"hit": 0, "last": 1, "steps": hits.steps[*place]})
                 elif tuple(key.values()) not in there:
                     empty.append(y & 3)
                 if tuple(key.values()) not in there:
                     out.append(key | {"hit": 0, "last": 1, "steps": hits.steps[*place]})
-    return out, hidden, empty
+    return out, hidden, empty, cut
 
 
 async def compare(dut, random, frame, skips=(), share=0.0, stall=0.0):
     """A frame against the golden model; how many pixels have no ray, by reason."""
-    records, limits, without = await cast(dut, random, frame, skips, share, stall)
-    records, hidden, empty = filled(frame, records, limits)
+    records, limits, without, ended = await cast(dut, random, frame, skips, share, stall)
+    records, hidden, empty, cut = filled(frame, records, limits)
+    assert cut[0] <= ended <= cut[1] and (ended > 0) == (share > 0), f"{ended} items have ended; {cut}"
+    if "boxes" not in skips:  # then cells beyond a face take steps, too
+        surfaces = {hits.surface.index: hits for hits in frame.surfaces}
+        for r in (r for r in records if r["last"]):
+            x0, y0, *_ = surfaces[r["surface"]].surface.rect
+            steps = surfaces[r["surface"]].steps[r["y"] - y0, r["x"] - x0]
+            assert r["steps"] >= steps
+            r["steps"] = steps
     test_core.compare(frame, records)
     assert hidden == [row for reason, row in without if reason == HIDDEN]
     assert sorted(empty) == sorted(row for reason, row in without if reason != HIDDEN)
@@ -129,7 +157,10 @@ async def dropped_rays_have_no_hit(dut, skips):
 
 @cocotb.test
 async def hidden_pixels_have_no_ray(dut):
-    """Random limits: exactly the pixels whose limit is nearer than the near plane are left out, of both kinds."""
+    """Random limits: exactly the pixels whose limit is nearer than the near plane are left out, of both kinds.
+
+    Items end in the rings, too.
+    """
     random = bench.rng()
     await start(dut)
     frame = trace_golden(compiled_frame(spirals.MIXED), CONFIG)

@@ -8,15 +8,15 @@ import bench
 from raydix.formats import PIXEL_WIDTH, STEPS_WIDTH
 
 EVENTS = bench.Struct(("rectangle", PIXEL_WIDTH + 1), ("hidden", 1), ("rootless", 1), ("beyond", 1), ("steps", 6),
-                      ("visible", 1), ("lost", 1), ("stalled", 1))  # fmt: skip
+                      ("ended", 6), ("visible", 1), ("lost", 1), ("stalled", 1))  # fmt: skip
 COUNTERS = bench.Struct(
     ("cycles", 64), ("steps", 64), ("rays", 32), ("hits", 32), ("skipped_rectangle", 32), ("skipped_rootless", 32),
     ("skipped_depth", 32), ("skipped_boxes", 32), ("skipped_cells", 32), ("skipped_early", 32), ("visible", 32),
     ("layers_lost", 32), ("given_up", 32), ("stalled", 32),
 )  # fmt: skip
 SAME = {"skipped_rectangle": "rectangle", "skipped_rootless": "rootless", "skipped_depth": "hidden",
-        "skipped_boxes": "beyond", "steps": "steps", "visible": "visible", "layers_lost": "lost",
-        "stalled": "stalled"}  # fmt: skip
+        "skipped_boxes": "beyond", "skipped_cells": "ended", "steps": "steps", "visible": "visible",
+        "layers_lost": "lost", "stalled": "stalled"}  # fmt: skip
 MOST = (1 << STEPS_WIDTH) - 1  # steps of a ray that was given up
 
 

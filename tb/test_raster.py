@@ -28,6 +28,7 @@ from raydix.raster import (
     roots_wanted,
     sample,
 )
+from raydix.ring import NO_LIMIT
 
 QUADRIC, QUARTIC, VECTOR = QUADRIC_WORDS, QUARTIC_WORDS, VECTOR_WORDS  # kinds of surfaces by their words
 SIZES = [(1, 1), (1, 7), (7, 1), (2, 2), (1, 1)]  # columns, rows; then random ones
@@ -73,7 +74,7 @@ def model(descriptor_words, quads_built, form):
         for x in range(x0, x1 + 1):
             sample(state, first, quads)
             ray = {"surface": w[0] & 63, "x": x, "y": y, "paper": item[PAPER], "roots": roots_wanted(w)}
-            ray["box"] = list(item[BOX : BOX + 3])
+            ray |= {"box": list(item[BOX : BOX + 3]), "limit": NO_LIMIT}
             ends = {"start": list(first[C : C + 3]), "stop": list(first[C + 3 : C + 6])}
             ends |= {"depth_start": first[DEPTH], "depth_stop": first[DEPTH + 1]}
             # lanes that the descriptor does not carry hold what the last quartic left there

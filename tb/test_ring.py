@@ -11,10 +11,10 @@ import spirals
 import streams
 from raydix.ends import ends
 from raydix.formats import COORD_FRAC, VECTOR_WIDTH
-from raydix.item import BOX, DEPTH, HIT, PAPER, ROOTS, SIZE, STATUS, STEPS, B, C
+from raydix.item import AGAIN, BOX, DEPTH, DONE, ENTERS, HIT, PAPER, ROOTS, RUN, SIZE, STATUS, STEPS, B, C, T
 from raydix.kernel import words, zeros
-from raydix.ring import trace
-from raydix.step import new_work
+from raydix.ring import NO_LIMIT, behind, enter, limit_of, more, restart, trace
+from raydix.step import new_work, step
 from raydix.vecsum import new_lanes
 
 CERTIFIED, PAPER_RULE, BOTH = 1, 2, 3
@@ -29,6 +29,7 @@ class Shape:
 
         names = ("N1", "K", "W", "D", "U", "Rules")
         self.n1, self.steps, self.width, self.degree, self.units, self.rules = map(value, names)
+        self.limited = value("Limit")
         self.general = value("General") if self.degree == 1 else 0
         self.phases = latency.phases((1 << self.n1) - 1, value("Lanes")) if self.degree == 1 else 1
         self.slots = value("Slots")
@@ -75,7 +76,16 @@ def random_request(random, shape, number):
         "paper": {CERTIFIED: 0, PAPER_RULE: 1, BOTH: random.getrandbits(1)}[shape.rules],
         "roots": random.randint(1, 4),
         "box": [random.choice((0, 0, 0, 0, 1, 2, 7, 10, 20)) for _ in range(3)],
+        "limit": NO_LIMIT,
     }
+
+
+def with_limit(random, ray, ends):
+    """The ray with a limit: none, any, or a depth along the segment; near and far plane may be either way around."""
+    near, far = ends["depth_start"], ends["depth_stop"]
+    between = limit_of(near + int((far - near) * random.random()))
+    limit = random.choice((NO_LIMIT, NO_LIMIT - 1, 0, random.randrange(NO_LIMIT), limit_of(near), *[between] * 8))
+    return ray | {"limit": limit}
 
 
 def segment_of(first, degree):
@@ -102,7 +112,8 @@ def random_chord(random, shape):
 def random_ray(random, shape, number):
     """A ray and its first segment: 0 to D roots, some close to each other, or any control points; with boxes."""
     if shape.degree == 1:
-        return random_request(random, shape, number), random_chord(random, shape)
+        segment = random_chord(random, shape)
+        return with_limit(random, random_request(random, shape, number), segment), segment
     kind = random.random()
     if kind < 0.6:
         at = random.random()
@@ -126,13 +137,15 @@ def random_ray(random, shape, number):
         "depth_stop": random.randrange(1 << 31),
         "b": b,
     }
-    return ray, segment
+    if random.random() < 0.5:  # as the planes of a surface are
+        segment["depth_start"], segment["depth_stop"] = sorted((segment["depth_start"], segment["depth_stop"]))
+    return with_limit(random, ray, segment), segment
 
 
 def plain_ray(random, shape, number):
     """A ray with one root and nothing pending: linear, no box. It takes K steps and never restarts."""
     ray, segment = random_ray(random, shape, number)
-    ray |= {"paper": shape.rules == PAPER_RULE, "roots": 1, "box": [0, 0, 0]}
+    ray |= {"paper": shape.rules == PAPER_RULE, "roots": 1, "box": [0, 0, 0], "limit": NO_LIMIT}
     if shape.degree == 1:  # a few that do it, over and over
         while len(shape.plain) < 12:
             if [(r["hit"], r["steps"]) for r in model(shape, ray, segment)] == [(1, shape.steps)]:
@@ -148,24 +161,32 @@ def known_ray(random, shape, number, count):
     """A ray with ``count`` roots far from each other, all of them wanted, without a box."""
     ray, segment = random_ray(random, shape, number)
     segment["b"] = bernstein([0.2, 0.4, 0.6, 0.8][:count], shape.degree, shape.width, random.choice((-1, 1)))
-    return {**ray, "roots": 4, "box": [0, 0, 0]}, segment
+    return {**ray, "roots": 4, "box": [0, 0, 0], "limit": NO_LIMIT}, segment
 
 
 def model(shape, ray, segment):
     """The records that the ray leaves, in order."""
     key = repr((ray, segment))
     if key not in shape.records:
-        shape.records[key] = trace_by_model(shape, ray, segment)
+        records = trace_by_model(shape, ray, segment)
+        if shape.limited and ray["limit"] != NO_LIMIT:
+            records = limit_by_model(shape, ray, segment, records)
+        shape.records[key] = records
     return shape.records[key]
 
 
-def trace_by_model(shape, ray, segment):
-    """The same, not looked up."""
-    records = []
+def first_of(shape, segment):
+    """The first segment as the model has it."""
     first = zeros(SIZE)
     first[C : C + 6] = words([*segment["start"], *segment["stop"]])
     first[DEPTH : DEPTH + 2] = words([segment["depth_start"], segment["depth_stop"]])
     first[B : B + shape.degree + 1] = words(segment["b"])
+    return first
+
+
+def trace_by_model(shape, ray, segment):
+    """The same without a limit, not looked up."""
+    records, first = [], first_of(shape, segment)
     fixed = shape.work, shape.n1, shape.steps, shape.width, shape.degree, shape.general
 
     def follow(roots):
@@ -186,6 +207,41 @@ def trace_by_model(shape, ray, segment):
     if item[STATUS] != HIT:
         nothing = dict.fromkeys(("t", "depth", "point", "enters"))
         records.append({**place, "hit": 0, "last": 1, **nothing, "steps": item[STEPS]})
+    return records
+
+
+def limit_by_model(shape, ray, segment, without):
+    """The records of a ray whose items end behind its limit, turn by turn; ``without``: those of the ray without it."""
+    item, first = zeros(SIZE), first_of(shape, segment)
+    item[PAPER], item[ROOTS] = ray["paper"], ray["roots"]
+    item[BOX : BOX + 3] = words(ray["box"])
+    fixed = shape.form, shape.work, shape.n1, shape.steps, shape.width, shape.degree, shape.general
+    records = []
+
+    def record(hit, last, **rest):
+        place = {name: ray[name] for name in ("surface", "x", "y")}
+        nothing = dict.fromkeys(("t", "depth", "point", "enters"))
+        records.append({**place, "hit": hit, "last": last, **nothing, **rest, "steps": item[STEPS]})
+
+    enter(item, first, shape.degree)
+    while not records or not records[-1]["last"]:
+        for _ in range(shape.units):
+            if item[STATUS] == RUN:
+                step(item, *fixed)
+        if item[STATUS] != DONE and behind(item[DEPTH], ray["limit"]):
+            record(0, 1, ended=True)
+        elif item[STATUS] == HIT:
+            last, point = int(not more(item)), item[C : C + 3].tolist()
+            record(1, last, t=item[T], depth=item[DEPTH], point=point, enters=item[ENTERS])
+            item[ROOTS] -= 1
+            item[STATUS] = AGAIN
+        elif item[STATUS] == DONE:
+            record(0, 1)
+        if item[STATUS] == AGAIN:
+            restart(item, first, shape.degree)
+    if segment["depth_start"] <= segment["depth_stop"]:  # no hit is lost but those that cannot be seen
+        hits, all_hits = ([r["t"] for r in some if r["hit"]] for some in (records, without))
+        assert hits == [r["t"] for r in without if r["hit"] and not behind(r["depth"], ray["limit"])], (hits, all_hits)
     return records
 
 
@@ -226,7 +282,7 @@ def compare(shape, rays, received):
         if len(got) != len(expected):
             lines.append(f"{len(expected)} records expected, {len(got)} received")
         for i, (e, g) in enumerate(zip(expected, got, strict=False)):
-            lines += [f"record {i}, {n}: expected {e[n]}, got {g[n]}" for n in e if e[n] is not None and e[n] != g[n]]
+            lines += [f"record {i}, {n}: expected {e[n]}, got {g[n]}" for n in g if e[n] is not None and e[n] != g[n]]
         if lines:
             raise bench.mismatch(number, {"ray": ray, "segment": segment}, [*lines, f"{expected}", f"{got}"])
         t = [g["t"] for g in got if g["hit"]]
@@ -250,8 +306,22 @@ async def trace_all(dut, shape, rays, random, idle, stall):
     count = sum(len(model(shape, *ray)) for ray in rays)
     sink = hit_sink(dut, random, stall)
     feed(dut, shape, rays, random, idle)
+    ended = []
+    watch = cocotb.start_soon(count_ended(dut, ended))
     await all_taken(shape, rays, sink, cocotb.start_soon(sink.take(count, quiet=2 * shape.turn)))
+    watch.cancel()
+    wanted = sum(model(shape, *ray)[-1].get("ended", False) for ray in rays)
+    assert len(ended) == wanted, f"{wanted} items end behind their limit, ended_o tells of {len(ended)}"
     return sink
+
+
+async def count_ended(dut, ended):
+    """For ever: a clock in which an item has ended behind its limit is one element more."""
+    while True:
+        await ReadOnly()
+        if dut.ended_o.value == 1:
+            ended.append(1)
+        await FallingEdge(dut.clk_i)
 
 
 @cocotb.test
@@ -270,6 +340,8 @@ async def equals_model(dut, idle, stall):
         for count, ray in enumerate(rays):
             assert sum(r["hit"] for r in model(shape, *ray)) == count
         rays += [random_ray(random, shape, number) for number in range(len(rays), 70)]
+    while shape.limited and not any(model(shape, *ray)[-1].get("ended") for ray in rays):
+        rays.append(random_ray(random, shape, len(rays)))
     random.shuffle(rays)
     await trace_all(dut, shape, rays, random, idle, stall)
 
@@ -359,8 +431,8 @@ async def throughput(dut):
 
 
 CASES = [
-    dict(N1=3, K=8, W=36, D=4, U=1, Rules=BOTH),
-    dict(N1=1, K=6, W=36, D=2, U=6, Rules=CERTIFIED),
+    dict(N1=3, K=8, W=36, D=4, U=1, Rules=BOTH, Limit=1),
+    dict(N1=1, K=6, W=36, D=2, U=6, Rules=CERTIFIED, Limit=1),
     dict(N1=2, K=5, W=24, D=4, U=3, Rules=PAPER_RULE),
     dict(N1=4, K=3, W=48, D=4, U=2, Rules=BOTH),
 ]
@@ -368,13 +440,13 @@ CASES = [
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)
 def test_ring(parameters):
-    """One shared unit, the full pipeline, and in between; each rule alone and both."""
+    """One shared unit, the full pipeline, and in between; each rule alone and both; with limits and without."""
     bench.run(__name__, "rdx_ring", parameters)
 
 
 VECTOR_CASES = [
-    pytest.param(dict(N1=3, K=8, U=1, Rules=BOTH, Lanes=7, General=0), marks=pytest.mark.long),
-    dict(N1=2, K=5, U=2, Rules=CERTIFIED, Lanes=1, General=1),
+    pytest.param(dict(N1=3, K=8, U=1, Rules=BOTH, Lanes=7, General=0, Limit=1), marks=pytest.mark.long),
+    dict(N1=2, K=5, U=2, Rules=CERTIFIED, Lanes=1, General=1, Limit=1),
     pytest.param(dict(N1=3, K=4, U=2, Rules=PAPER_RULE, Lanes=3, General=0), marks=pytest.mark.long),
 ]
 

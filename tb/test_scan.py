@@ -78,6 +78,8 @@ async def scan(dut, random, rows, limits, idle, stall):
 
     hides = [limits.hides(bit(ray), ray["ray_o"]["x"], ray["ends_o"]["depth_start"]) for ray in every]
     expected = [ray for ray, h in zip(every, hides, strict=True) if not h]
+    for ray in expected:
+        ray["ray_o"]["limit"] = limits.carried(bit(ray), ray["ray_o"]["x"])
     hidden = []
     sink = streams_extra.sink(dut, random, stall, "ray_", STRUCTS)
     watching = cocotb.start_soon(watch(dut, limits, hidden))

@@ -100,12 +100,12 @@ async def reset_makes_idle(dut):
 
 
 CASES = [
-    dict(N1=2, K=5, U=2, Rules=ring.BOTH, Lanes=2, General=1),
+    dict(N1=2, K=5, U=2, Rules=ring.BOTH, Lanes=2, General=1, Limit=1),
     pytest.param(dict(N1=1, K=12, U=1, Rules=1, Lanes=1, General=0), marks=pytest.mark.long),
 ]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)
 def test_vector(parameters):
-    """Some lanes and two units; the smallest, whose rays enter every other clock."""
+    """Some lanes and two units, with limits; the smallest, whose rays enter every other clock."""
     bench.run(__name__, "rdx_vector", parameters)

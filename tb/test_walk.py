@@ -40,8 +40,8 @@ async def walk(dut, random, rows, limits, idle=0.0, stall=0.0, end=None):
         valid, ready, hidden = (bool(s.value) for s in (dut.ray_valid_o, dut.ray_ready_i, dut.hidden_o))
         assert not (start and step) and not (valid and hidden)
         if held is not None:
-            looks.differs(len(left), {}, ray=(held, (valid, int(dut.ray_x_o.value))))
-        held = (True, int(dut.ray_x_o.value)) if valid and not ready else None
+            looks.differs(len(left), {}, ray=(held, (valid, int(dut.ray_x_o.value), int(dut.ray_limit_o.value))))
+        held = (True, int(dut.ray_x_o.value), int(dut.ray_limit_o.value)) if valid and not ready else None
         assert not held or not (start or step), "the lanes move below a ray that is not taken"
         waits = begun >= 0 and len(left) < len(pixels) and pixels[len(left)][0] <= begun
         assert not (waits and dut.idle_o.value == 1), "idle with pixels under way"
@@ -52,7 +52,8 @@ async def walk(dut, random, rows, limits, idle=0.0, stall=0.0, end=None):
             given = {"row": rows[number], "limit": limits.of(bit, x)}
             looks.differs(len(left), given, lane=((number, x), lane), hidden=(limits.hides(bit, x, near), hidden))
             if valid:
-                looks.differs(len(left), given, ray_x_o=(x, int(dut.ray_x_o.value)))
+                carried = (limits.carried(bit, x), int(dut.ray_limit_o.value))
+                looks.differs(len(left), given, ray_x_o=(x, int(dut.ray_x_o.value)), ray_limit_o=carried)
             else:
                 looks.differs(len(left), given, hidden_row_o=(bit, int(dut.hidden_row_o.value)))
             if hidden or ready:

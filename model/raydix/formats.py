@@ -34,6 +34,7 @@ COORD_FRAC = 30
 COORD_WIDTH = 2 + COORD_FRAC
 COORD_ACC_WIDTH = 48
 DEPTH_WIDTH = 32
+LIMIT_WIDTH = 18
 QUAD_ACC_WIDTH = 64
 OPERAND_WIDTH = 36
 OPERAND_SHIFT = 27
@@ -170,6 +171,7 @@ TABLE = (
     Constant("CoordWidth", COORD_WIDTH, "s2p30", "local coordinate, in units of the surface's axis scale"),
     Constant("CoordAccWidth", COORD_ACC_WIDTH, "s2p46", "forward-difference accumulator of a coordinate"),
     Constant("DepthWidth", DEPTH_WIDTH, "s1p31", "camera depth in units of the frame's scale; never negative"),
+    Constant("LimitWidth", LIMIT_WIDTH, "u0p18", "depth of the nearest opaque hit, floor; all ones: there is none"),
     Constant("QuadAccWidth", QUAD_ACC_WIDTH, "s64p0", "accumulator of a quadric's control point, magnitude below 2^62"),
     Constant("OperandWidth", OPERAND_WIDTH, "s36p0", "operand of a product; quartic: accumulator / 2^27, half up"),
     Constant("OperandShift", OPERAND_SHIFT, "", "bits dropped from an accumulator to make an operand"),

@@ -6,7 +6,7 @@ pending cell is to be searched, and leaves a record for each root. How many unit
 items at a time changes the order of the records only, so the golden model follows one item after the other.
 """
 
-from .formats import STEPS_MAX
+from .formats import DEPTH_WIDTH, LIMIT_WIDTH, STEPS_MAX
 from .item import (
     AGAIN,
     DEPTH,
@@ -65,6 +65,19 @@ def restart(item, first, degree):
 def more(item):
     """After a hit: another root is wanted and a cell is pending."""
     return item[ROOTS] > 1 and item[PENDING] == 1 and item[STEPS] < STEPS_MAX
+
+
+NO_LIMIT = (1 << LIMIT_WIDTH) - 1  # nothing is behind it
+
+
+def limit_of(depth):
+    """The limit that a ray carries: the highest bits of the depth of the nearest opaque hit."""
+    return depth >> (DEPTH_WIDTH - 1 - LIMIT_WIDTH)
+
+
+def behind(depth, limit):
+    """A cell that begins at this depth lies behind a limit: it ends an item of the RTL. The golden model has no limits."""
+    return limit_of(depth) > limit
 
 
 @kernel
