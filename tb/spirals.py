@@ -17,7 +17,7 @@ from raydix.scene import load_scene
 from raydix.step import new_work, step
 from raydix.vecsum import new_lanes
 
-MIXED, HELICES, COIL = "mixed", "helices", "coil"  # of tb/scenes
+MIXED, HELICES, COIL, NESTED = "mixed", "helices", "coil", "nested"  # of tb/scenes
 HELIX = (
     ("spiral", 0),
     (HELICES, 0),

@@ -109,8 +109,35 @@ def test_skipping_changes_no_pixel(scene):
         assert (output.rgb[0] == frame.rgb).all(), off
         for name in off - {"early"}:
             assert output.counters[f"skipped_{name}"] == 0, name
+        ended = output.counters["skipped_cells"]  # the front of glass lets light through
+        assert ended == 0 if "depth" in off or scene == "glass" else ended > 50
         cycles[off] = output.counters["cycles"]
     assert cycles[ALL] > 1.2 * cycles[frozenset()]
+
+
+def test_items_end_behind_the_nearest_hit():
+    """Surfaces of both kinds within each other: what is left of an item behind the nearest hit is not searched.
+
+    The hits that are missing are those behind that hit, and the picture is the same.
+    """
+    loaded, compiled, frame = golden(spirals.NESTED, (48, 36), SPIRALS)
+    short, whole = (run_frames([(loaded, compiled)], SPIRALS, skips=ALL - off) for off in (frozenset(), {"depth"}))
+    for output in (short, whole):
+        assert (output.rgb[0] == frame.rgb).all()
+        assert differing_bits_of(output.hits, frame.hits) == 0
+    assert whole.counters["skipped_cells"] == 0 and short.counters["skipped_depth"] == 0
+    missing = 0
+    for some, every in zip(short.hits.surfaces, whole.hits.surfaces, strict=True):
+        x0, y0, x1, y1 = some.surface.rect
+        nearest = frame.depth[y0 : y1 + 1, x0 : x1 + 1, None]
+        gone = (some.t < 0) & (every.t >= 0)
+        assert (every.depth > nearest)[gone].all()
+        if some.surface.index != 1:  # the first one has no limits, the second one few
+            assert gone.any() == (some.surface.index > 1), some.surface.index
+        missing += int(gone.any(axis=2).sum())
+    assert short.counters["skipped_cells"] >= missing > 100
+    assert short.counters["steps"] < whole.counters["steps"]
+    assert short.counters["cycles"] < 0.9 * whole.counters["cycles"]
 
 
 def test_frames_follow_each_other():

@@ -83,14 +83,14 @@ async def reset_empties(dut):
 
 
 CASES = [
-    dict(N1=3, K=4, W=36, D=2, U=1, Rings=4, Rules=ring.CERTIFIED),
+    dict(N1=3, K=4, W=36, D=2, U=1, Rings=4, Rules=ring.CERTIFIED, Limit=1),
     dict(N1=2, K=5, W=24, D=4, U=2, Rings=3, Rules=ring.BOTH),
     dict(N1=1, K=6, W=36, D=2, U=6, Rings=1, Rules=ring.CERTIFIED),
-    dict(N1=1, K=6, W=VECTOR_WIDTH, D=1, U=1, Rings=2, Rules=ring.CERTIFIED, HalveStages=1, Lanes=1, General=0),
+    dict(N1=1, K=6, W=VECTOR_WIDTH, D=1, U=1, Rings=2, Rules=ring.CERTIFIED, HalveStages=1, Lanes=1, General=0, Limit=1),
 ]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)
 def test_rings(parameters):
-    """Four, three, one; of vector sums two."""
+    """Four, three, one; of vector sums two; with limits and without."""
     bench.run(__name__, "rdx_rings", parameters)
