@@ -5,12 +5,13 @@ PYTHON ?= python3
 JOBS   ?= 2
 FIGURE2 := scenes/torus.toml scenes/hyperboloid.toml scenes/spiral.toml
 MODULE := $(T:rdx_%=%)
+PROCESSORS := render-quadric render-torus render-spiral
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime synth exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -87,6 +88,9 @@ realtime: $(READY) ## cycles of a frame of the processor at 1920x1080 and the cl
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)
+
+pnr: $(READY) ## place and route the processor: size, clock, slowest path, of POINT= or of each for 1080p60; half an hour each (JOBS=2 ARGS=)
+	@$(BIN)/python scripts/synth.py $(if $(POINT),$(POINT),$(PROCESSORS)) --jobs $(JOBS) $(ARGS)
 
 mutants: $(READY) ## small changes of the RTL, one at a time, that its tests must find, of T=<module> or all (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/mutants.py $(MODULE) --jobs $(JOBS) $(ARGS)

@@ -26,6 +26,7 @@ rdx_zone.sv
 rdx_bound.sv
 rdx_sample.sv
 rdx_pick.sv
+rdx_scale.sv
 rdx_settle.sv
 rdx_step.sv
 rdx_slots.sv

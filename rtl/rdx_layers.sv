@@ -81,7 +81,7 @@ module rdx_layers #(
   end
 
   // ---- memories ----
-  word_t words[Banks], words_q[Banks];
+  word_t words_q[Banks];
   word_t write_word_q;
   logic [GroupWidth-1:0] clear_group_q;
   logic clear_q;
@@ -100,11 +100,12 @@ module rdx_layers #(
     wire reading = read_i && read_row_i == Row;
     wire clearing = clear_q && clear_row_q == Row;
     wire writing = write_valid_q && write_q.hit && bank_of(index_t'(write_q.y), write_q.x) == bank_t'(b);
-    word_t memory[Groups];
+    word_t memory[Groups], read_word_q, read_word_qq;
+    assign words_q[b] = read_word_qq;
     always_ff @(posedge clk_i) begin
-      words[b] <= memory[reading?read_group_i : group_of(hit_i.x)];
+      read_word_q <= memory[reading?read_group_i : group_of(hit_i.x)];
       if (clearing || writing) memory[clearing?clear_group_q : group_of(write_q.x)] <= clearing ? '0 : write_word_q;
-      words_q[b] <= words[b];
+      read_word_qq <= read_word_q;
     end
     `RDX_ASSERT(a_one_writer, !(clearing && writing))
   end
@@ -148,7 +149,6 @@ module rdx_layers #(
   assign last_o = write_valid_q && write_q.last;
   assign last_row_o = write_q.y[1:0];
   wire unused_hit = &{1'b0, write_q, look_row_i};
-
   always_comb begin
     for (int unsigned p = 0; p < Pixels; p++) begin
       automatic word_t word = words_q[32'(clear_row_qq)*Pixels+p];
@@ -178,9 +178,10 @@ module rdx_layers #(
       localparam index_t Row = index_t'(b / Pixels);
       wire clearing = clear_q && clear_row_q == Row;
       wire writing = write_valid_q && write_q.hit && bank_of(index_t'(write_q.y), write_q.x) == bank_t'(b);
-      limit_t memory[Groups];
+      limit_t memory[Groups], limit_q;
+      assign limits[b] = limit_q;
       always_ff @(posedge clk_i) begin
-        if (look_i) limits[b] <= memory[group_of(look_x_i)];
+        if (look_i) limit_q <= memory[group_of(look_x_i)];
         if (clearing || writing) memory[clearing?clear_group_q : group_of(write_q.x)] <= clearing ? '0 : limit_d;
       end
     end

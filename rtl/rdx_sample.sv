@@ -5,10 +5,12 @@
 // ends are known from the step before. Everything else waits in memories.
 //
 // Formats    segment_i: ends s2p30 and s1p31, b: indicator at both ends, s5p33. cells_o: indicator at the boundaries.
-//            outside_o, possible_o: bit j for cell j. cell_o: ends of cell pick_i and indicator there.
+//            outside_o, possible_o: bit j for cell j. b_o, ends_o: indicator and ends of cell pick_i,
+//            point_o the start; close_i: the ends meet in the middle.
 // Rounding   half up in each average.    Overflow   cannot happen.
 // Timing     an item every Phases clocks, where phase_i = 0. cells_o, outside_o, possible_o and control_o after Latency =
-//            rdx_pkg::cells_latency clocks; pick_i comes Wait clocks later, cell_o N1 clocks after that. No stall.
+//            rdx_pkg::cells_latency clocks; pick_i comes Wait clocks later, b_o N1 clocks after that.
+//            close_i comes a clock before b_o, point_o a clock after it, ends_o 3. No stall.
 // Reset      of waiting lines' places only.
 // Model      model/raydix/step.py (boundaries), bound.py, outside.py, carry.py
 `default_nettype none
@@ -24,19 +26,22 @@ module rdx_sample #(
     localparam type control_t = `RDX_CONTROL_T(N1 * K),
     localparam type segment_t = `RDX_SEGMENT_T(rdx_pkg::VectorWidth, 1)
 ) (
-    input  wire logic                     clk_i,
-    input  wire logic                     rst_ni,
-    input  wire logic            [   3:0] phase_i,
-    input  wire rdx_pkg::form_t           form_i,
-    input  wire rdx_pkg::modes_t          modes_i,
-    input  wire control_t                 control_i,
-    input  wire segment_t                 segment_i,
-    input  wire logic            [N1-1:0] pick_i,
-    output control_t                      control_o,
-    output rdx_pkg::vector_t              cells_o   [J+1],
-    output logic                 [ J-1:0] outside_o,
-    output logic                 [ J-1:0] possible_o,
-    output segment_t                      cell_o
+    input  wire logic                                               clk_i,
+    input  wire logic                                               rst_ni,
+    input  wire logic            [   3:0]                           phase_i,
+    input  wire rdx_pkg::form_t                                     form_i,
+    input  wire rdx_pkg::modes_t                                    modes_i,
+    input  wire control_t                                           control_i,
+    input  wire segment_t                                           segment_i,
+    input  wire logic            [N1-1:0]                           pick_i,
+    input  wire logic                                               close_i,
+    output control_t                                                control_o,
+    output rdx_pkg::vector_t                                        cells_o   [J+1],
+    output logic                 [ J-1:0]                           outside_o,
+    output logic                 [ J-1:0]                           possible_o,
+    output logic                 [   1:0][rdx_pkg::VectorWidth-1:0] b_o,
+    output rdx_pkg::coord_t      [   2:0]                           point_o,
+    output rdx_pkg::ends_t                                          ends_o
 );
   import rdx_pkg::*;
 
@@ -44,6 +49,7 @@ module rdx_sample #(
   localparam int unsigned Phases = phases(J - 1, Lanes);
   localparam int unsigned Evaluation = VecsumLatency + Phases - 1;
   localparam int unsigned Latency = cells_latency(N1, 1, 1, Lanes);
+  localparam int unsigned Moving = N1 / 2 + 1;  // clocks of the ends that are over when b_o is there
 
   // ---- coordinates ----
   coord_t coords[3][J+1], points[3][J-1];
@@ -148,16 +154,28 @@ module rdx_sample #(
   `RDX_WAIT(u_wait_values, 2 * VectorWidth, Halving + Evaluation, segment_i.b, {stop, start})
   `RDX_WAIT(u_wait_outside, J, Evaluation + BoundLatency - 1, outside_q, outside_o)
   `RDX_WAIT(u_wait_control, $bits(control_t), Latency, control_i, control_o)
-  `RDX_WAIT(u_wait_ends, $bits(ends_t), Latency + Wait, segment_i.ends, ends_here)
+  `RDX_WAIT(u_wait_ends, $bits(ends_t), Latency + Wait + N1 - Moving, segment_i.ends, ends_here)
 
   // ---- the chosen cell ----
+  logic [N1-1:0] pick[1], pick_q[1];
+  assign pick[0] = pick_i;
+  rdx_delay #(
+      .T(logic [N1-1:0]),
+      .Depth(N1 - Moving)
+  ) u_pick (
+      .clk_i,
+      .data_i(pick),
+      .data_o(pick_q)
+  );
   rdx_descend #(
       .N1(N1)
   ) u_descend (
       .clk_i,
       .ends_i(ends_here),
-      .pick_i,
-      .ends_o(cell_o.ends)
+      .pick_i(pick_q[0]),
+      .close_i,
+      .point_o,
+      .ends_o
   );
   vector_t chosen[2], chosen_q[2];
   assign chosen = '{cells_q[(N1+1)'(pick_i)], cells_q[(N1+1)'(pick_i)+1]};
@@ -170,7 +188,7 @@ module rdx_sample #(
       .data_i(chosen),
       .data_o(chosen_q)
   );
-  assign cell_o.b = {chosen_q[1], chosen_q[0]};
+  assign b_o = {chosen_q[1], chosen_q[0]};
 
   wire unused_modes = &{1'b0, modes_i};
 

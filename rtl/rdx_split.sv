@@ -6,10 +6,10 @@
 // or its depth.
 //
 // Formats    segment_i: ends s2p30 and s1p31, control points sWp0. cells_o: as rdx_cells. outside_o: bit j for cell j.
-//            cell_o: ends and control points of cell pick_i.
+//            b_o, ends_o: control points and ends of cell pick_i, point_o the start; close_i: the ends meet in the middle.
 // Rounding   half up in each average.    Overflow   cannot happen, as in rdx_halve.
-// Timing     cells_o and outside_o after N1*HalveStages clocks; pick_i comes Wait clocks later, cell_o
-//            rdx_pkg::pick_latency clocks after that. No stall.
+// Timing     cells_o and outside_o after N1*HalveStages clocks; pick_i comes Wait clocks later, b_o rdx_pkg::pick_latency
+//            clocks after that. close_i comes a clock before b_o, point_o a clock after it, ends_o 3. No stall.
 // Reset      of waiting lines' places only.
 // Error      of the ends at most N1/2 ulp a step
 // Model      model/raydix/cells.py, outside.py, carry.py
@@ -26,19 +26,23 @@ module rdx_split #(
     localparam int unsigned J = 1 << N1,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
-    input  wire logic                        clk_i,
-    input  wire logic                        rst_ni,
-    input  wire rdx_pkg::box_t [        2:0] box_i,
-    input  wire segment_t                    segment_i,
-    input  wire logic          [     N1-1:0] pick_i,
-    output logic signed        [W+Below-1:0] cells_o  [J*D+1],
-    output logic               [      J-1:0] outside_o,
-    output segment_t                         cell_o
+    input  wire logic                               clk_i,
+    input  wire logic                               rst_ni,
+    input  wire rdx_pkg::box_t [        2:0]        box_i,
+    input  wire segment_t                           segment_i,
+    input  wire logic          [     N1-1:0]        pick_i,
+    input  wire logic                               close_i,
+    output logic signed        [W+Below-1:0]        cells_o  [J*D+1],
+    output logic               [      J-1:0]        outside_o,
+    output logic               [        D:0][W-1:0] b_o,
+    output rdx_pkg::coord_t    [        2:0]        point_o,
+    output rdx_pkg::ends_t                          ends_o
 );
   import rdx_pkg::*;
 
   localparam int unsigned Latency = N1 * HalveStages;
   localparam int unsigned Follow = pick_latency(N1, D);
+  localparam int unsigned Moving = N1 / 2 + 1;  // clocks of the ends that are over when b_o is there
 
   // ---- control points; averages of values that are less by one are less by one ----
   localparam type value_t = logic signed [W+Below-1:0];
@@ -78,8 +82,9 @@ module rdx_split #(
       .outside_o
   );
 
-  // ---- the chosen cell ----
-  segment_t here;
+  // ---- the chosen cell: control points, and its ends, which take longer ----
+  logic [D:0][W-1:0] here;
+  ends_t ends_here;
   rdx_line #(
       .W((D + 1) * W),
       .Depth(Latency + Wait)
@@ -88,23 +93,23 @@ module rdx_split #(
       .rst_ni,
       .en_i  (1'b1),
       .data_i(segment_i.b),
-      .data_o(here.b)
+      .data_o(here)
   );
   rdx_line #(
       .W($bits(ends_t)),
-      .Depth(Latency + Wait + Follow - N1)
+      .Depth(Latency + Wait + Follow - Moving)
   ) u_wait_ends (
       .clk_i,
       .rst_ni,
       .en_i  (1'b1),
       .data_i(segment_i.ends),
-      .data_o(here.ends)
+      .data_o(ends_here)
   );
   logic signed [W-1:0] points[D+1], chosen[D+1];
   always_comb begin
     for (int unsigned i = 0; i <= D; i++) begin
-      points[i]   = here.b[i];
-      cell_o.b[i] = chosen[i];
+      points[i] = here[i];
+      b_o[i] = chosen[i];
     end
   end
   rdx_follow #(
@@ -121,7 +126,7 @@ module rdx_split #(
   assign pick[0] = pick_i;
   rdx_delay #(
       .T(logic [N1-1:0]),
-      .Depth(Follow - N1)
+      .Depth(Follow - Moving)
   ) u_pick (
       .clk_i,
       .data_i(pick),
@@ -131,9 +136,11 @@ module rdx_split #(
       .N1(N1)
   ) u_descend (
       .clk_i,
-      .ends_i(here.ends),
+      .ends_i(ends_here),
       .pick_i(pick_q[0]),
-      .ends_o(cell_o.ends)
+      .close_i,
+      .point_o,
+      .ends_o
   );
 
 endmodule

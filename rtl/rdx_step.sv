@@ -60,7 +60,9 @@ module rdx_step #(
   logic signed [W+Below-1:0] cells[J*D+1];
   logic [J-1:0] outside, possible;
   cell_t pick, next, first;
-  segment_t cell_q;
+  logic [D:0][W-1:0] b_q;
+  coord_t [2:0] point;
+  logic close;
   // the digits of t_min at a level, 0 unless they are followed
   function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
     first_cell = '0;
@@ -69,7 +71,7 @@ module rdx_step #(
   `define RDX_SEARCH(CONTROL) \
     {CONTROL.level == 5'(K - 1), CONTROL.paper, first_cell(CONTROL.level, CONTROL.t_min, CONTROL.follow)}
   `define RDX_LATE(NAME, TYPE, DEPTH, IN, OUT) \
-    rdx_delay #(.T(TYPE), .Depth(DEPTH)) NAME (.clk_i, .data_i(IN), .data_o(OUT));
+    rdx_delay #(.T(TYPE), .Depth(DEPTH)) NAME (.clk_i, .data_i('{IN}), .data_o(OUT));
   `define RDX_HOLD(NAME, WIDTH, DEPTH, IN, OUT) \
     rdx_line #(.W(WIDTH), .Depth(DEPTH)) NAME (.clk_i, .rst_ni, .en_i(1'b1), .data_i(IN), .data_o(OUT));
   localparam type search_t = logic [N1+1:0];
@@ -91,13 +93,14 @@ module rdx_step #(
         .box_i(control_i.box),
         .segment_i,
         .pick_i(pick),
+        .close_i(close),
         .cells_o(cells),
         .outside_o(outside),
-        .cell_o(cell_q)
+        .b_o(b_q),
+        .point_o(point),
+        .ends_o(segment_o.ends)
     );
-    search_t entering[1];
-    assign entering[0] = `RDX_SEARCH(control_i);
-    `RDX_LATE(u_search, search_t, CellsLatency, entering, search)
+    `RDX_LATE(u_search, search_t, CellsLatency, `RDX_SEARCH(control_i), search)
     assign waits = control_i;
     assign possible = '0;
   end else begin : gen_sample
@@ -116,16 +119,19 @@ module rdx_step #(
         .control_i,
         .segment_i,
         .pick_i(pick),
+        .close_i(close),
         .control_o(waits),
         .cells_o(cells),
         .outside_o(outside),
         .possible_o(possible),
-        .cell_o(cell_q)
+        .b_o(b_q),
+        .point_o(point),
+        .ends_o(segment_o.ends)
     );
     assign search[0] = `RDX_SEARCH(waits);
   end
   // ---- choice: cells before t_min and cells outside of the box are passed over ----
-  logic found, more;
+  logic found, more, was_found, was_more, dead_q;
   rdx_select #(
       .W(W + 32'(Below)),
       .D(D),
@@ -144,21 +150,16 @@ module rdx_step #(
       .pick_o(pick),
       .next_o(next)
   );
-
   // ---- pick: the chosen cell becomes the item's, its number the next digits of t ----
   localparam type choice_t = logic [3*N1+1:0];
-  cell_t first_now[1], first_late[1];
-  assign first_now[0] = first;
-  `RDX_LATE(u_first, cell_t, SelectLatency, first_now, first_late)
-  choice_t choice[1], choice_q[1];
-  logic was_found, was_more;
-  cell_t was_pick, was_next, was_first;
-  assign choice[0] = {found, more, pick, next, first_late[0]};
+  choice_t choice_q[1];
+  cell_t first_late[1], was_pick, was_next, was_first;
+  `RDX_LATE(u_first, cell_t, SelectLatency, first, first_late)
   assign {was_found, was_more, was_pick, was_next, was_first} = choice_q[0];
-  `RDX_LATE(u_choice, choice_t, PickLatency - 1, choice, choice_q)
+  `RDX_LATE(u_choice, choice_t, PickLatency - 1, ({found, more, pick, next, first_late[0]}), choice_q)
   control_t chosen, picked_d, picked_q;
-  localparam int unsigned Choosing = SelectLatency + PickLatency - 1;
-  `RDX_HOLD(u_control, $bits(control_t), (D > 1 ? CellsLatency : 0) + Choosing, waits, chosen)
+  assign close = chosen.status == Run && was_found && chosen.level == 5'(K - 1);
+  `RDX_HOLD(u_control, $bits(control_t), (D > 1 ? CellsLatency : 0) + SelectLatency + PickLatency - 1, waits, chosen)
   rdx_pick #(
       .N1(N1),
       .K (K)
@@ -171,7 +172,6 @@ module rdx_step #(
       .next_i   (was_next),
       .control_o(picked_d)
   );
-  logic dead_q;
   always_ff @(posedge clk_i) begin
     picked_q <= picked_d;
     dead_q   <= !was_found;
@@ -185,15 +185,15 @@ module rdx_step #(
   ) u_settle (
       .clk_i,
       .control_i(picked_q),
-      .segment_i(cell_q),
+      .b_i(b_q),
       .dead_i(dead_q),
+      .point_i(point),
       .low_i(form_i.low),
       .high_i(form_i.high),
       .control_o,
-      .segment_o
+      .b_o(segment_o.b)
   );
   wire unused = &{1'b0, modes_i, phase_i, form_i};
-
 endmodule
 
 `default_nettype wire

@@ -42,6 +42,11 @@ def pick(n1, degree):
     return n1 * ((degree + 1) // 2)
 
 
+def moving(n1):
+    """Clocks of rdx_descend that are over when the control points of the chosen cell are there."""
+    return n1 // 2 + 1
+
+
 def step(n1, degree, halve_stages, lanes, rules):
     """Of rdx_step."""
     return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree) + SETTLE

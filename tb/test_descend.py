@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ends of a chosen cell: RTL equals the model; they are the boundaries evaluated, within N1/2 ulp of the line."""
+"""The ends of a chosen cell, or its middle: RTL equals the model; they are the boundaries evaluated, within N1/2 ulp of
+the line."""
 
 from fractions import Fraction
 
@@ -7,9 +8,12 @@ import cocotb
 import pytest
 
 import bench
+import latency
 from raydix.carry import descend
 from raydix.cells import subdivide
 from raydix.formats import COORD_WIDTH, DEPTH_WIDTH
+
+POINT = bench.Struct(("at", -COORD_WIDTH, 3))
 
 
 def model(start, stop, pick, n1):
@@ -43,19 +47,43 @@ def cell(ends, pick, n1):
     return {"start": start, "stop": stop, "depth_start": depth[0], "depth_stop": depth[1]}
 
 
+def closed(ends):
+    """The ends of a cell that has shrunk to its middle, half up."""
+    middles = [(a + b + 1) >> 1 for a, b in zip(ends["start"], ends["stop"], strict=True)]
+    depth = (ends["depth_start"] + ends["depth_stop"] + 1) >> 1
+    return {"start": middles, "stop": middles, "depth_start": depth, "depth_stop": depth}
+
+
 @cocotb.test
 async def equals_model(dut):
-    """Every cell of each of many segments, N1 clocks later, one a clock."""
+    """Every cell of each of many segments, as it is and closed, one a clock: the point first, then both ends."""
     random, n1 = bench.rng(), bench.parameter(dut, "N1")
+    moving = latency.moving(n1)
     await bench.start(dut)
     segments = [random_ends(random) for _ in range(100)]
-    items = [{"ends_i": ends, "pick_i": pick} for ends in segments for pick in range(1 << n1)]
+    items = [(ends, pick, close) for ends in segments for pick in range(1 << n1) for close in (0, 1)]
     random.shuffle(items)
 
-    def expect(item):
-        return {"ends_o": cell(item["ends_i"], item["pick_i"], n1)}
+    def clocks():
+        late = [0] * (moving - 1) + [close for *_, close in items]
+        for number, close in enumerate(late):
+            ends, pick, _ = items[min(number, len(items) - 1)]
+            yield {"ends_i": ends, "pick_i": pick, "close_i": close}
 
-    await bench.pipeline(dut, items, expect, n1, {"ends_i": bench.ENDS, "ends_o": bench.ENDS})
+    def answers():
+        for ends, pick, close in items:
+            chosen = cell(ends, pick, n1)
+            yield closed(chosen) if close else chosen
+
+    structs = {"ends_i": bench.ENDS, "ends_o": bench.ENDS, "point_o": POINT}
+    for port, clock in (("point_o", moving + 1), ("ends_o", moving + 3)):
+        wanted = answers()
+
+        def expect(_, port=port, wanted=wanted):
+            ends = next(wanted, None)
+            return {port: {"at": ends["start"]} if port == "point_o" else ends} if ends else {}
+
+        await bench.pipeline(dut, clocks(), expect, clock, structs)
 
 
 @cocotb.test

@@ -25,6 +25,8 @@ CASES = [
     ("rdx_select", dict(Rules=0), "Rules = 0; allowed: 1 certified, 2 paper, 3 both"),
     ("rdx_select", dict(Rules=4), "Rules = 4; allowed: 1 certified, 2 paper, 3 both"),
     ("rdx_select", dict(Rules=3, Below=1), "Below = 1 with Rules = 3; allowed: 1 certified"),
+    ("rdx_scale", dict(Bits=6), "Bits = 6; allowed: 1 and up, 2^Bits at most W = 36"),
+    ("rdx_scale", dict(Bits=0), "Bits = 0; allowed: 1 and up, 2^Bits at most W = 36"),
     ("rdx_clip", dict(N1=3, Latency=2), "Latency = 2; allowed: 0, or N1 = 3 and up"),
     ("rdx_step", dict(K=11), "K = 11; allowed: 1 to 10 (N1*K is at most 32)"),
     ("rdx_step", dict(K=0), "K = 0; allowed: 1 to 10 (N1*K is at most 32)"),

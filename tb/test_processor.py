@@ -80,6 +80,25 @@ def test_pixels_equal_golden(config, scene, size):
     assert counted["given_up"] == 0
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("scene", "rings"), [("torus", 4), ("hyperboloid", 3)])
+def test_full_hd(scene, rings):
+    """1920x1080: every pixel, work done at most 1.1 times what is needed, and a clock or little more for a pixel.
+
+    Needed are K steps for each visible hit and one for each other ray that was looked at in a ring.
+    """
+    loaded = spirals.load(scene, 1920, 1080)
+    config = Config(3, 8, units=1, rings=rings, rules="certified", **families(loaded), **frame_parameters(loaded, 2))
+    loaded, compiled, frame = golden(scene, (1920, 1080), config)
+    output = run_frames([(loaded, compiled)], config)
+    assert (output.rgb[0] == frame.rgb).all()
+    counted = output.counters
+    needed = config.steps * counted["visible"] + counted["rays"] - counted["visible"]
+    print(f"\n{counted['cycles']} cycles, {counted['steps']} steps, {needed} needed, {rectangles(compiled)} pixels")
+    assert counted["steps"] <= 1.1 * needed
+    assert counted["cycles"] <= 1.06 * rectangles(compiled)
+
+
 @pytest.mark.parametrize("scene", ["gallery", "glass"])
 def test_skipping_changes_no_pixel(scene):
     """All skipping off, and each kind off by itself: the same bits; a counter is 0 where its kind is off."""

@@ -12,8 +12,8 @@ from raydix.formats import VECTOR_WIDTH
 from raydix.item import LEVEL, B
 from raydix.outside import outside_faces
 from raydix.step import boundaries, new_work
-from test_descend import cell
-from test_split import given
+from test_descend import POINT, cell, closed
+from test_split import given, given_parts
 from test_step import fields_of, item_of, made_up
 
 
@@ -31,7 +31,8 @@ def stimuli(dut, random, found, count):
         if random.random() < 0.3:
             control["level"] = random.randrange(steps)
             segment = made_up(random, constants, n1 * (steps - control["level"]))
-        yield dict(control_i=control, segment_i=segment, pick=random.randrange(1 << n1))
+        choice = dict(pick=random.randrange(1 << n1), close=random.getrandbits(1))
+        yield dict(control_i=control, segment_i=segment) | choice
 
 
 def model(dut, found, item):
@@ -47,7 +48,9 @@ def model(dut, found, item):
         may |= possible(values[j], values[j + 1], *bounds) << j
     changes = sum(((values[j] > 0) != (values[j + 1] > 0)) << j for j in range(1 << n1))
     pick = item["pick"]
-    return values, outside, may, changes, cell(item["segment_i"], pick, n1) | dict(b=values[pick : pick + 2])
+    ends = cell(item["segment_i"], pick, n1)
+    ends = closed(ends) if item["close"] else ends
+    return values, outside, may, changes, ends | dict(b=values[pick : pick + 2])
 
 
 @cocotb.test
@@ -58,7 +61,8 @@ async def equals_model(dut):
     """
     n1, steps, general, lanes, wait = shape(dut)
     control, segment = bench.control(n1 * steps), bench.segment(VECTOR_WIDTH, 1)
-    structs = dict(control_i=control, control_o=control, segment_i=segment, cell_o=segment)
+    structs = dict(control_i=control, control_o=control, segment_i=segment)
+    structs |= dict(b_o=bench.Struct(("b", -VECTOR_WIDTH, 2)), point_o=POINT, ends_o=bench.ENDS)
     random, every = bench.rng(), latency.phases((1 << n1) - 1, lanes)
     clocks = latency.cells(n1, 1, 1, lanes)
     await bench.start(dut)
@@ -80,11 +84,9 @@ async def equals_model(dut):
             may = may & ~changes | masks.read()[0] & changes
             return dict(control_o=items[number]["control_i"], cells_o=values, outside_o=outside, possible_o=may)
 
-        def chosen(number, answers=answers):
-            return dict(cell_o=answers[number][-1])
-
         await given(dut, items, first, clocks, clocks + wait, structs, every, anything)
-        await given(dut, items, chosen, clocks + wait + n1, clocks + wait, structs, every, anything)
+        cells = [answer[-1] for answer in answers]
+        await given_parts(dut, items, cells, clocks + wait + n1, clocks + wait, structs, every, anything)
 
 
 SETS = [

@@ -10,7 +10,7 @@ from raydix.cells import subdivide
 from raydix.formats import BOX_WIDTH
 from raydix.item import BOX, SIZE, C
 from raydix.outside import outside_cells
-from test_descend import cell, random_ends
+from test_descend import POINT, cell, closed, random_ends
 
 BOXES = bench.Struct(("box", BOX_WIDTH, 3))
 
@@ -26,7 +26,8 @@ def stimuli(dut, count):
     random = bench.rng()
     for b in bench.vectors(random, width, degree + 1, count):
         box = dict(box=random.choices((0, 0, 1, 2, 5, 31), k=3))
-        yield dict(box_i=box, segment_i=random_ends(random) | dict(b=b), pick=random.randrange(1 << n1))
+        choice = dict(pick=random.randrange(1 << n1), close=random.getrandbits(1))
+        yield dict(box_i=box, segment_i=random_ends(random) | dict(b=b)) | choice
 
 
 def model(dut, item):
@@ -39,7 +40,8 @@ def model(dut, item):
     state[BOX : BOX + 3], state[C : C + 6] = box, segment["start"] + segment["stop"]
     outside = outside_cells(state, [0] * ((1 << n1) + 1), n1)
     at = item["pick"] * degree
-    chosen = cell(segment, item["pick"], n1) | dict(b=cells[at : at + degree + 1])
+    ends = cell(segment, item["pick"], n1)
+    chosen = (closed(ends) if item["close"] else ends) | dict(b=cells[at : at + degree + 1])
     return [value - below for value in cells], outside, chosen
 
 
@@ -48,7 +50,8 @@ async def equals_model(dut):
     """An item a clock: cells and masks after N1*HalveStages clocks, Wait later the choice, then the cell."""
     n1, width, degree, stages, wait, _ = shape(dut)
     segment = bench.segment(width, degree)
-    structs = dict(box_i=BOXES, segment_i=segment, cell_o=segment)
+    points = bench.Struct(("b", -width, degree + 1))
+    structs = dict(box_i=BOXES, segment_i=segment, b_o=points, point_o=POINT, ends_o=bench.ENDS)
     items = list(stimuli(dut, 300))
     answers = [model(dut, item) for item in items]
     await bench.start(dut)
@@ -60,23 +63,40 @@ async def equals_model(dut):
     await given(dut, items, first, n1 * stages, n1 * stages + wait, structs)
     chosen = n1 * stages + wait
     late = chosen + latency.pick(n1, degree)
-    await given(dut, items, lambda number: dict(cell_o=answers[number][2]), late, chosen, structs)
+    await given_parts(dut, items, [answer[2] for answer in answers], late, chosen, structs)
 
 
-async def given(dut, items, expect, delay, choice, structs, every=1, fill=None):
+async def given_parts(dut, items, cells, late, choice, structs, every=1, fill=None):
+    """The parts of the chosen cell, each at its clock: control points ``late`` clocks after the item, point, ends."""
+
+    def ends(number):
+        return {name: value for name, value in cells[number].items() if name != "b"}
+
+    for part, more in (
+        (lambda number: dict(b_o=dict(b=cells[number]["b"])), 0),
+        (lambda number: dict(point_o=dict(at=ends(number)["start"])), 1),
+        (lambda number: dict(ends_o=ends(number)), 3),
+    ):
+        await given(dut, items, part, late + more, choice, structs, every, fill, late - 1)
+
+
+async def given(dut, items, expect, delay, choice, structs, every=1, fill=None, close=None):
     """Items one after the other, each one's choice ``choice`` clocks later; what ``expect`` names ``delay`` later.
 
     every  an item so many clocks, with ``fill()`` between them
+    close  clock in which it is said whether the cell is closed
     """
 
     def clocks():
-        count = len(items) * every + choice + delay
+        count = len(items) * every + choice + delay + (close or 0)
         for clock in range(count):
             place, phase = divmod(clock, every)
             item = items[place] if phase == 0 and place < len(items) else fill() if fill else items[0]
             chosen, late = divmod(clock - choice, every)
             pick = items[chosen]["pick"] if late == 0 and 0 <= chosen < len(items) else 0
-            inputs = {name: value for name, value in item.items() if name != "pick"} | dict(pick_i=pick)
+            inputs = {name: value for name, value in item.items() if name not in ("pick", "close")} | dict(pick_i=pick)
+            closing, late = divmod(clock - (close or 0), every)
+            inputs["close_i"] = items[closing]["close"] if late == 0 and 0 <= closing < len(items) else 0
             if every > 1:
                 inputs |= dict(phase_i=phase)
             yield Numbered(inputs, place if phase == 0 and place < len(items) else None)

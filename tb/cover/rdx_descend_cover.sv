@@ -8,7 +8,8 @@ module rdx_descend_cover #(
 ) (
     input wire logic                    clk_i,
     input wire rdx_pkg::ends_t          ends_i,
-    input wire logic           [N1-1:0] pick_i
+    input wire logic           [N1-1:0] pick_i,
+    input wire logic                    close_i
 );
   for (genvar j = 0; j < (1 << N1); j++) begin : gen_cell
     `RDX_COVER(picked, 32'(pick_i) == j)
@@ -17,6 +18,8 @@ module rdx_descend_cover #(
     `RDX_COVER(rounded_up, ends_i.start[axis][0] != ends_i.stop[axis][0])
     `RDX_COVER(exact, ends_i.start[axis][0] == ends_i.stop[axis][0])
   end
+  `RDX_COVER(closed, close_i)
+  `RDX_COVER(left_open, !close_i)
   `RDX_COVER(depth_rounded_up, ends_i.depth_start[0] != ends_i.depth_stop[0])
 endmodule
 
