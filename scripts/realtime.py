@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cycles of a frame of the processor, the clock that 60 frames a second take, and what skipping saves.
 
-    scripts/realtime.py                       the scenes of the paper's figure 2, 1920x1080
-    scripts/realtime.py SCENE --rings 4       one scene; parameters as those of raydix render
-    scripts/realtime.py --skips               what each kind of skipping saves, instead, 320x240
+    scripts/realtime.py                       the paper's figure 2, 1920x1080, on the processors of `make pnr`
+    scripts/realtime.py SCENE --rings 4       one scene, on a processor of its own; parameters as those of raydix render
+    scripts/realtime.py --skips               what each kind of skipping saves, instead, of every scene, 320x240
     scripts/realtime.py --write               renew the table in docs/realtime.md, too
 
 Cycles are those of the RTL under Verilator, counted by the processor itself. Every picture is compared with the golden
-model's; exit status 1 where a bit differs.
+model's; exit status 1 where a bit differs. The clock is that of the design point's row in docs/synthesis.md.
 """
 
 import argparse
@@ -17,84 +17,126 @@ from pathlib import Path
 
 from raydix.blocks import show_table, write_table
 from raydix.compile import compile_scene
-from raydix.config import Config, ConfigError
+from raydix.config import VECSUMS, Config, ConfigError
 from raydix.fit import families, frame_parameters
 from raydix.golden import trace_golden
 from raydix.processor import ALL, SKIPS, run_frames
 from raydix.rtl import RtlError
 from raydix.scene import SceneError, load_scene
 from raydix.shade import compose
+from synth import PAGE as SIZES
+from synth import POINTS
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "realtime.md"
-FIGURE2 = [ROOT / "scenes" / f"{name}.toml" for name in ("torus", "hyperboloid", "spiral")]
+SCENES = ROOT / "scenes"
+BUILT = {"torus": "render-torus", "hyperboloid": "render-quadric", "spiral": "render-spiral"}  # scene: design point
 RATE = 60  # frames a second
-SPEED = ("scene", "size", "n1", "rings", "lanes", "pixels a beat", "rays", "steps", "cycles", "clock for 60 Hz, MHz",
-         "steps / needed")  # fmt: skip
-SAVED = ("scene", "all on", *(f"without {name}" for name in SKIPS), "all off", "saved")
+SPEED = ("scene", "size", "processor", "n1", "rings", "rays", "steps", "steps / needed", "cycles",
+         "clock for 60 Hz, MHz", "LUT4", "placed, MHz", "frames a second")  # fmt: skip
+SAVED = ("scene", "steps / needed", "all on", *(f"without {name}" for name in SKIPS), "all off", "saved")
 
 
-def prepared(path, args):
-    """Scene, words, configuration and the golden model's frame."""
-    scene = load_scene(path, *args.size)
-    config = Config(
-        n1=args.n1, steps=24 // args.n1, units=1, rules="certified", lanes=args.lanes,
-        vector_units=1, rings=args.rings, vector_rings=args.vector_rings, **families(scene),
-        **frame_parameters(scene, args.beat),
+def point_config(point):
+    """The configuration of a design point of ``scripts/synth.py``."""
+    p = POINTS[point].parameters
+    return Config(
+        n1=p.get("N1", 3), steps=p.get("K", 8), degree=p.get("D", 4), units=p.get("U", 1), rings=p.get("Rings", 1),
+        rules="certified", vecsum=VECSUMS[p.get("Vecsum", 0)], lanes=p.get("Lanes"),
+        vector_units=p.get("VectorUnits", 1), vector_rings=p.get("VectorRings", 1), surfaces=p["Surfaces"],
+        layers=p["Layers"], max_width=p["MaxWidth"], beat=p["Pixels"],
     )  # fmt: skip
+
+
+def own_config(scene, args):
+    """The smallest configuration for a scene, with the parameters asked for."""
+    return Config(
+        n1=args.n1, steps=24 // args.n1, units=1, rules="certified", lanes=args.lanes, rings=args.rings,
+        vector_rings=args.vector_rings, **families(scene), **frame_parameters(scene, args.beat),
+    )  # fmt: skip
+
+
+def placed(point):
+    """(LUT4, clock in MHz) of a design point's row in docs/synthesis.md, as texts; empty where there is none."""
+    for line in SIZES.read_text().splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if cells[0].strip() == point:
+            return cells[2], cells[-1]
+    return "", ""
+
+
+def golden(scene, config):
+    """The words of a scene, and the golden model's frame."""
     compiled = compile_scene(scene, config)
-    return scene, compiled, config, compose(scene, trace_golden(compiled, config, 2), config, config.layers)
+    return compiled, compose(scene, trace_golden(compiled, config, 2), config, config.layers)
+
+
+def work(config, counted):
+    """Steps done over needed: K for each visible layer, one for each other ray that entered a ring."""
+    visible = counted["visible"]
+    return f"{counted['steps'] / (config.steps * visible + max(0, counted['rays'] - visible)):.3f}"
 
 
 def speed_row(path, args):
     """A row of the table, and whether the picture is the golden model's."""
-    scene, compiled, config, frame = prepared(path, args)
+    scene = load_scene(path, *args.size)
+    point = None if args.own else BUILT.get(scene.name)
+    config = point_config(point) if point else own_config(scene, args)
+    compiled, frame = golden(scene, config)
     output = run_frames([(scene, compiled)], config)
     counted = output.counters
-    # K steps for each visible hit of an opaque surface, one for each other ray that entered a ring
-    visible = counted["visible"]
-    needed = config.steps * visible + max(0, counted["rays"] - visible)
-    units = config.rings if config.degree else config.vector_rings
-    row = [scene.name, f"{args.size[0]}×{args.size[1]}", str(config.n1), str(units)]
-    row += [str(config.lanes) if config.vecsum != "none" else "", str(config.beat)]
-    row += [f"{counted[name]:,}" for name in ("rays", "steps", "cycles")]
-    row += [f"{counted['cycles'] * RATE / 1e6:.1f}", f"{counted['steps'] / needed:.3f}"]
+    lut, clock = placed(point) if point else ("", "")
+    rings = config.rings if config.degree else config.vector_rings
+    row = [scene.name, f"{args.size[0]}×{args.size[1]}", point or "", str(config.n1), str(rings)]
+    row += [f"{counted['rays']:,}", f"{counted['steps']:,}", work(config, counted), f"{counted['cycles']:,}"]
+    row += [f"{counted['cycles'] * RATE / 1e6:.1f}", lut, clock]
+    row += [f"{float(clock) * 1e6 / counted['cycles']:.1f}" if clock else ""]
     return row, (output.rgb[0] == frame.rgb).all()
 
 
 def saved_row(path, args):
     """Cycles with all kinds of skipping, without each, and without any."""
-    scene, compiled, config, frame = prepared(path, args)
-    cycles, same = [], True
+    scene = load_scene(path, *args.size)
+    config = own_config(scene, args)
+    compiled, frame = golden(scene, config)
+    cycles, same, ratio = [], True, ""
     for skips in (ALL, *(ALL - {name} for name in SKIPS), frozenset()):
         output = run_frames([(scene, compiled)], config, skips=skips)
         same &= bool((output.rgb[0] == frame.rgb).all())
         cycles.append(output.counters["cycles"])
-    return [scene.name, *(f"{c:,}" for c in cycles), f"{1 - cycles[0] / cycles[-1]:.0%}"], same
+        ratio = ratio or work(config, output.counters)
+    return [scene.name, ratio, *(f"{c:,}" for c in cycles), f"{1 - cycles[0] / cycles[-1]:.0%}"], same
 
 
 def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: the paper's figure 2)")
+    parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: the paper's figure 2; --skips: all)")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), metavar="WxH")
-    parser.add_argument("--n1", type=int, default=3)
-    parser.add_argument("--rings", type=int, default=4)
+    parser.add_argument("--n1", type=int)
+    parser.add_argument("--rings", type=int)
     parser.add_argument("--lanes", type=int)
-    parser.add_argument("--vector-rings", type=int, default=1)
-    parser.add_argument("--beat", type=int, default=2)
+    parser.add_argument("--vector-rings", type=int)
+    parser.add_argument("--beat", type=int)
     parser.add_argument("--skips", action="store_true", help="what each kind of skipping saves")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/realtime.md")
     args = parser.parse_args()
+    defaults = {"n1": 3, "rings": 4, "lanes": None, "vector_rings": 1, "beat": 2}
+    args.own = any(getattr(args, name) is not None for name in defaults)
+    for name, value in defaults.items():
+        setattr(args, name, value if getattr(args, name) is None else getattr(args, name))
     args.size = args.size or ((320, 240) if args.skips else (1920, 1080))
     header, row_of, name = (SAVED, saved_row, "skips") if args.skips else (SPEED, speed_row, "speed")
+    scenes = args.scene or (
+        sorted(SCENES.glob("*.toml")) if args.skips else [SCENES / f"{name}.toml" for name in BUILT]
+    )
     try:
-        results = [row_of(path, args) for path in args.scene or FIGURE2]
+        results = [row_of(path, args) for path in scenes]
     except (SceneError, ConfigError, RtlError) as error:
         print(f"realtime: {error}", file=sys.stderr)
         return 2
     rows = [row for row, _ in results]
-    show_table("Cycles of a frame", header, rows, ("scene",), 160)
+    show_table("Cycles of a frame", header, rows, ("scene",), 200)
     if args.write:
         write_table(PAGE, name, header, rows)
     wrong = [row[0] for row, same in results if not same]
