@@ -112,7 +112,7 @@ def ring(parameters, always, **rest):
     narrow = ("rdx_pkg", "int unsigned LimitWidth = 18;", "int unsigned LimitWidth = 2;")
     return Proof(
         "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short, narrow),
-        stages=3, depth=45, **rest,
+        stages=3, depth=60, **rest,
     )  # fmt: skip
 
 
