@@ -30,6 +30,7 @@ def random_rays(random, shape, count):
         ray = ring.random_request(random, shape, number)
         if random.random() < 0.7:
             ray["box"] = [0, 0, 0]
+        ends = ends | {name: random.randrange(1 << 31) for name in ("depth_start", "depth_stop")}  # never negative
         ray = ring.with_limit(random, ray, ends)
         given.append((ray, ends, quartic, quads))
         rays.append((ray, ends | {"b": test_product.model(quads, quartic, shape.width, shape.degree)}))

@@ -175,9 +175,9 @@ async def unmapped(dut, stall):
     mapped = {r["address"] for r in MAP.REGISTERS.values()}
     inside = [range(w["address"], w["address"] + w["size"]) for w in MAP.WINDOWS.values()]
     free = [a for a in range(0, 1 << 18, 4) if a not in mapped and not any(a in r for r in inside)]
-    assert {0x24, 0x1000, 0x24000, 0x3FFFC} <= set(free)
+    assert {0x28, 0x1000, 0x24000, 0x3FFFC} <= set(free)
     kept = await host.read(MAP.REGISTERS["SKIP"]["address"])
-    for address in [0x24, 0x3C, 0xC4, 0x1000, 0xFFFC, 0x24000, 0x3FFFC, *rng.sample(free, 20)]:
+    for address in [0x28, 0x3C, 0xC4, 0x1000, 0xFFFC, 0x24000, 0x3FFFC, *rng.sample(free, 20)]:
         assert await host.read(address) == (0, SLVERR), hex(address)
         assert await host.write(address, rng.getrandbits(32)) == SLVERR, hex(address)
     assert await host.read(MAP.WINDOWS["MATERIALS"]["address"]) == (0, SLVERR)
