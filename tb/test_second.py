@@ -72,7 +72,7 @@ def test_module(icarus, module, parameters):
 BREAKS = [
     ("rdx_register", "if (!rst_ni) valid_o <= 1'b0;\n    else if", "if"),
     ("rdx_slots", "filled_o <= 1'b0;", ""),
-    ("rdx_merge", "held_q <= 1'b0;", ""),
+    ("rdx_merge", "if (!rst_ni) turn_q <= '0;\n    else if", "if"),
 ]
 
 

@@ -9,7 +9,7 @@ import bench
 import streams
 import streams_extra
 from raydix.cells import subdivide
-from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, DEPTH_WIDTH, PIXEL_WIDTH, SURFACE_WIDTH
+from raydix.formats import BOX_WIDTH, COORD_FRAC, COORD_WIDTH, DEPTH_WIDTH, LIMIT_WIDTH, PIXEL_WIDTH, SURFACE_WIDTH
 from raydix.kernel import words, zeros
 from raydix.outside import beyond
 
@@ -55,7 +55,7 @@ def rays(dut, random, count):
         ends = [ends_of_axis(random, b) for b in box]
         segment = {"start": [e[0] for e in ends], "stop": [e[1] for e in ends]}
         segment |= {name: random.getrandbits(DEPTH_WIDTH - 1) for name in ("depth_start", "depth_stop")}
-        yield ray | {"box": box}, segment | {"b": coefficients(random, width, degree)}
+        yield ray | {"box": box, "limit": random.getrandbits(LIMIT_WIDTH)}, segment | {"b": coefficients(random, width, degree)}
 
 
 def mixed(levels, b):
