@@ -55,7 +55,8 @@ def rays(dut, random, count):
         ends = [ends_of_axis(random, b) for b in box]
         segment = {"start": [e[0] for e in ends], "stop": [e[1] for e in ends]}
         segment |= {name: random.getrandbits(DEPTH_WIDTH - 1) for name in ("depth_start", "depth_stop")}
-        yield ray | {"box": box, "limit": random.getrandbits(LIMIT_WIDTH)}, segment | {"b": coefficients(random, width, degree)}
+        ray |= {"box": box, "limit": random.getrandbits(LIMIT_WIDTH)}
+        yield ray, segment | {"b": coefficients(random, width, degree)}
 
 
 def mixed(levels, b):
