@@ -6,7 +6,7 @@
 //
 // Formats    hit_i: rdx_pkg::hit_t. Groups are Pixels neighbouring pixels. count_o, entries_o: of each pixel of the group.
 //            limit_o: depth of the nearest opaque hit, valid where limit_valid_o = 1.
-// Timing     a hit a clock, but one to a pixel that another of the last three clocks went to waits. last_o: a ray's last record
+// Timing     a hit a clock, but one to a pixel that another of the last four clocks went to waits. last_o: a ray's last record
 //            has been written, two clocks before in the layers. The group asked for by read_i is there two clocks later, and
 //            becomes empty. The pixel of look_x_i has its limit in the next clock with look_i = 1.
 // Reset      control only: each pixel has to be read once before its first hit.
@@ -62,23 +62,28 @@ module rdx_layers #(
     return GroupWidth'(x >> PixelBits);
   endfunction
 
-  // ---- a hit on its way: asked for, read, placed ----
-  logic ask_valid_q, read_valid_q, write_valid_q;
-  hit_t ask_q, read_q, write_q;
-  wire hazard = hit_i.hit && (
-      (ask_valid_q && ask_q.hit && ask_q.x == hit_i.x && ask_q.y[1:0] == hit_i.y[1:0]) ||
-      (read_valid_q && read_q.hit && read_q.x == hit_i.x && read_q.y[1:0] == hit_i.y[1:0]) ||
-      (write_valid_q && write_q.hit && write_q.x == hit_i.x && write_q.y[1:0] == hit_i.y[1:0]));
+  // ---- a hit on its way: asked for, read, its bank picked, placed and written ----
+  localparam int unsigned Stages = 4;
+  localparam int unsigned Pick = 2;
+  logic [Stages-1:0] valid_q;
+  hit_t stage_q[Stages];
+  logic hazard;
+  always_comb begin
+    hazard = 1'b0;
+    for (int unsigned s = 0; s < Stages; s++) begin
+      if (valid_q[s] && stage_q[s].hit && hit_i.hit && {stage_q[s].x, stage_q[s].y[1:0]} == {hit_i.x, hit_i.y[1:0]})
+        hazard = 1'b1;
+    end
+  end
   assign hit_ready_o = !hazard;
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) {ask_valid_q, read_valid_q, write_valid_q} <= '0;
-    else {ask_valid_q, read_valid_q, write_valid_q} <= {hit_valid_i && hit_ready_o, ask_valid_q, read_valid_q};
+    valid_q <= rst_ni ? {valid_q[Stages-2:0], hit_valid_i && hit_ready_o} : '0;
+    stage_q[0] <= hit_i;
+    for (int unsigned s = 1; s < Stages; s++) stage_q[s] <= stage_q[s-1];
   end
-  always_ff @(posedge clk_i) begin
-    ask_q   <= hit_i;
-    read_q  <= ask_q;
-    write_q <= read_q;
-  end
+  wire hit_t pick_q = stage_q[Pick];
+  wire hit_t write_q = stage_q[Stages-1];
+  wire write_valid_q = valid_q[Stages-1];
 
   // ---- memories ----
   word_t words_q[Banks];
@@ -115,7 +120,8 @@ module rdx_layers #(
   entry_t entries[Layers], entries_d[Layers];
   logic [Layers*$bits(entry_t)-1:0] packed_entries;
   logic lost;
-  wire word_t chosen = words_q[bank_of(index_t'(read_q.y), read_q.x)];
+  word_t chosen;
+  always_ff @(posedge clk_i) chosen <= words_q[bank_of(index_t'(stage_q[Pick-1].y), stage_q[Pick-1].x)];
   always_comb begin
     count = chosen[Layers*$bits(entry_t)+:$bits(count_t)];
     for (int unsigned i = 0; i < Layers; i++) entries[i] = chosen[i*$bits(entry_t)+:$bits(entry_t)];
@@ -123,15 +129,7 @@ module rdx_layers #(
   always_comb begin
     for (int unsigned i = 0; i < Layers; i++) packed_entries[i*$bits(entry_t)+:$bits(entry_t)] = entries_d[i];
   end
-  wire entry_t hit =
-  '{
-      opaque: opaque_i[read_q.surface],
-      enters: read_q.enters,
-      surface: read_q.surface,
-      depth: read_q.depth,
-      point: read_q.point
-  }
-  ;
+  wire entry_t hit = {opaque_i[pick_q.surface], pick_q.enters, pick_q.surface, pick_q.depth, pick_q.point};
   rdx_insert #(
       .Layers(Layers)
   ) u_insert (
@@ -144,11 +142,11 @@ module rdx_layers #(
   );
   always_ff @(posedge clk_i) begin
     write_word_q <= {count_d, packed_entries};
-    lost_o <= lost && read_valid_q && read_q.hit;
+    lost_o <= lost && valid_q[Pick] && pick_q.hit;
   end
   assign last_o = write_valid_q && write_q.last;
   assign last_row_o = write_q.y[1:0];
-  wire unused_hit = &{1'b0, write_q, look_row_i};
+  wire unused_hit = &{1'b0, pick_q, write_q, look_row_i};
   always_comb begin
     for (int unsigned p = 0; p < Pixels; p++) begin
       automatic word_t word = words_q[32'(clear_row_qq)*Pixels+p];

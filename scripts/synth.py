@@ -102,6 +102,9 @@ POINTS = {
         },
         slow=True,
     ),
+    "scan": Point("rdx_scan", {"D": 2, "Vector": 0}),
+    "feed": Point("rdx_feed", {"D": 2, "Rules": 1, "Vecsum": 0, "Slots": 1}),
+    "count": Point("rdx_count"),
     "lines": Point("rdx_lines", {"MaxWidth": 1920, "Pixels": 2, "Layers": 1, "Lines": 4, "Limit": 0}),
     "core": Point("rdx_core", {"N1": 3, "K": 8, "W": 36, "D": 4, "U": 1, "Rules": 1}, slow=True),
 }

@@ -11,7 +11,7 @@ import bench
 from entries import entry, meant, place
 from raydix.formats import PIXEL_WIDTH, STEPS_WIDTH
 
-WRITTEN = 3  # clocks from a hit's transfer to its writing
+WRITTEN = 4  # clocks from a hit's transfer to its writing
 
 
 class Lines:
