@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assertions; nothing is left of them where SYNTHESIS is defined. With RDX_FORMAL those of streams are written for a prover
-// that knows no sequences.
+// that knows no sequences. At time 0, before the reset of a simulation that begins with random values, nothing is asserted.
 `ifndef RDX_ASSERT_SVH
 `define RDX_ASSERT_SVH
 
@@ -30,7 +30,7 @@
 `else
 // `condition` holds at every clock out of reset.
 `define RDX_ASSERT(name, condition) \
-  name : assert property (@(posedge clk_i) disable iff (!rst_ni) condition) \
+  name : assert property (@(posedge clk_i) disable iff (!rst_ni || $time == 0) condition) \
     else $error("%m: condition does not hold");
 
 // The two rules of every stream port: valid stays until ready, and so does the data.

@@ -52,7 +52,7 @@ module rdx_lines #(
   logic last, read;
   line_t  last_row;
   index_t read_row;
-  logic [Lines-1:0] zero, emptied, sent_q;
+  logic [Lines-1:0] zero, emptied, sent_q, finished_q;
   logic [GroupWidth-1:0] read_group;
   count_t counts[Pixels];
   entry_t entries[Pixels][Layers];
@@ -60,8 +60,10 @@ module rdx_lines #(
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       sent_q <= '0;
+      finished_q <= '0;
     end else begin
       sent_q <= sent_q & ~emptied;
+      finished_q <= sent_q & zero & ~emptied;
       if (line_end_i) sent_q[index_t'(row_i)] <= 1'b1;
     end
   end
@@ -117,7 +119,7 @@ module rdx_lines #(
       .rst_ni,
       .ready_o,
       .last_group_i(GroupWidth'(last_x_i >> $clog2(Pixels))),
-      .line_i(sent_q & zero),
+      .line_i(finished_q),
       .start_i,
       .free_o(emptied),
       .read_o(read),
