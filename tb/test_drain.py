@@ -108,6 +108,7 @@ class Reader:
         seen = []
         while not self.dut.ready_o.value:
             assert self.dut.read_o.value, "the sweep pauses"
+            assert len(seen) < self.count * self.groups, "the sweep does not end"
             seen.append((int(self.dut.read_row_o.value), int(self.dut.read_group_o.value)))
             assert not self.dut.layer_valid_o.value and not int(self.dut.free_o.value)
             await FallingEdge(self.dut.clk_i)
