@@ -16,6 +16,7 @@ module rdx_algebraic #(
     parameter int unsigned U = 8,
     parameter int unsigned Rings = 1,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter bit Sift = 1'b0,  // rays that cannot have a hit do not enter the ring
     parameter bit Limit = 1'b0,  // items behind their ray's limit end
@@ -69,6 +70,7 @@ module rdx_algebraic #(
     rdx_sift #(
         .W(W),
         .D(D),
+        .Clip(Clip),
         .Levels(N1)
     ) u_sift (
         .clk_i,
@@ -103,6 +105,7 @@ module rdx_algebraic #(
       .U(U),
       .Rings(Rings),
       .Rules(Rules),
+      .Clip(Clip),
       .HalveStages(HalveStages),
       .Limit(Limit)
   ) u_rings (

@@ -14,6 +14,7 @@
 module rdx_audit #(
     parameter int unsigned D = 4,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Slots = 64,
     localparam int unsigned SlotWidth = Slots > 1 ? $clog2(Slots) : 1
@@ -52,6 +53,7 @@ module rdx_audit #(
   wire roots_t roots = header_q[SurfaceWidth+:RootsWidth];
   wire [1:0] rule = header_q[PaperAt] ? 2'(RulePaper) : 2'(RuleCertified);
   wire quartic = header_q[QuarticAt];
+  wire [3*BoxWidth-1:0] box = header_q[QuarticAt+1+:3*BoxWidth];
   wire vector = header_q[VectorAt];
   wire pixel_t x0 = table_i[0+:PixelWidth];
   wire pixel_t y0 = table_i[16+:PixelWidth];
@@ -67,6 +69,7 @@ module rdx_audit #(
     if (roots == 0 || roots > 4) error = ErrorRoots;
     if ((rule & 2'(Rules)) == 0) error = ErrorRule;
     if (32'(surface) >= Slots) error = ErrorSurface;
+    if (!Clip && !vector && box != '0) error = ErrorClip;
     if (vector ? Vecsum == VecsumNone : quartic ? D != 4 : D == 0) error = ErrorKind;
   end
 

@@ -18,6 +18,7 @@ module rdx_cast #(
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
@@ -99,6 +100,7 @@ module rdx_cast #(
         .U(U),
         .Rings(Rings),
         .Rules(Rules),
+        .Clip(Clip),
         .Sift(1'b1),
         .Limit(Limit)
     ) u_algebraic (

@@ -18,6 +18,7 @@ module rdx_core #(
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
@@ -91,6 +92,7 @@ module rdx_core #(
         .U(U),
         .Rings(Rings),
         .Rules(Rules),
+        .Clip(Clip),
         .HalveStages(HalveStages)
     ) u_algebraic (
         .clk_i,

@@ -10,6 +10,7 @@
 module rdx_feed #(
     parameter int unsigned D = 4,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Slots = 64
 ) (
@@ -84,6 +85,7 @@ module rdx_feed #(
   rdx_audit #(
       .D(D),
       .Rules(Rules),
+      .Clip(Clip),
       .Vecsum(Vecsum),
       .Slots(Slots)
   ) u_audit (

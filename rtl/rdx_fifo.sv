@@ -2,8 +2,8 @@
 // A queue in a memory. What is at its head stands in a register.
 //
 // Formats    data_i, data_o: W bits.
-// Timing     one word in and one out a clock; an entry is at the head three clocks after it came, at the earliest. ready_o
-//            depends on registers only, valid_o on neither input.
+// Timing     one word in and one out a clock; an entry is at the head two clocks after it came, at the earliest, three with
+//            Depth > 16 (block RAM, which has a register of its own). ready_o depends on registers only, valid_o on neither input.
 // Reset      pointers and valid.
 // Model      none: it changes no value
 `default_nettype none
@@ -28,34 +28,49 @@ module rdx_fifo #(
     $fatal(1, "rdx_fifo: Depth = %0d; allowed: a power of two, 2 or more", Depth);
   end
 
-  logic [W-1:0] memory [Depth];
-  logic [W-1:0] read_q;
+  (* no_rw_check *)
+  // a place is read only where it was written before
+  logic [W-1:0] memory[Depth];
   logic [Bits:0] write_place_q, read_place_q;
-  logic read_valid_q;  // read_q holds the next entry
-  wire  filled = write_place_q != read_place_q;
-  wire  advance = !valid_o || ready_i;
-  wire  fetch = filled && (!read_valid_q || advance);
-  wire  store = valid_i && ready_o;
+  wire filled = write_place_q != read_place_q;
+  wire advance = !valid_o || ready_i;
+  wire store = valid_i && ready_o;
+  logic fetch, next_valid;
+  logic [W-1:0] next;
   assign ready_o = (Bits + 1)'(write_place_q - read_place_q) != (Bits + 1)'(Depth);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       write_place_q <= '0;
       read_place_q <= '0;
-      read_valid_q <= 1'b0;
       valid_o <= 1'b0;
     end else begin
       if (store) write_place_q <= write_place_q + 1'b1;
       if (fetch) read_place_q <= read_place_q + 1'b1;
-      if (fetch) read_valid_q <= 1'b1;
-      else if (advance) read_valid_q <= 1'b0;
-      if (advance) valid_o <= read_valid_q;
+      if (advance) valid_o <= next_valid;
     end
   end
   always_ff @(posedge clk_i) begin
     if (store) memory[write_place_q[Bits-1:0]] <= data_i;
-    if (fetch) read_q <= memory[read_place_q[Bits-1:0]];
-    if (advance && read_valid_q) data_o <= read_q;
+    if (advance && next_valid) data_o <= next;
+  end
+
+  if (Depth > 16) begin : gen_block
+    logic [W-1:0] read_q;
+    logic read_valid_q;  // read_q holds the next entry
+    assign fetch = filled && (!read_valid_q || advance);
+    assign next_valid = read_valid_q;
+    assign next = read_q;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) read_valid_q <= 1'b0;
+      else if (fetch) read_valid_q <= 1'b1;
+      else if (advance) read_valid_q <= 1'b0;
+    end
+    always_ff @(posedge clk_i) if (fetch) read_q <= memory[read_place_q[Bits-1:0]];
+  end else begin : gen_distributed
+    assign fetch = filled && advance;
+    assign next_valid = filled;
+    assign next = memory[read_place_q[Bits-1:0]];
   end
 
   `RDX_STREAM(a_out, valid_o, ready_i, data_o)

@@ -69,7 +69,8 @@ typedef enum logic [3:0] {
   ErrorRectangle = 4'd6,  // reversed, or not within the frame
   ErrorSurface   = 4'd7,  // a surface number that is not built
   ErrorQueued    = 4'd8,  // a start while another waited
-  ErrorRule      = 4'd9   // a rule that is not built
+  ErrorRule      = 4'd9,  // a rule that is not built
+  ErrorClip      = 4'd10  // a box that cuts, and boxes are not built
 } error_e;
 
 // What is counted in a frame.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Descriptors to pixels: the processor without its registers.
 //
-// Rows of surfaces go through the raster and the rings; their hits become layers of pixels; finished lines are shaded. All that is
-// asked for (docs/processor.md) is skipped.
+// Rows of surfaces go through the raster and the rings; their hits become layers of pixels; finished lines are shaded.
 //
-// Formats    frame_i: held while busy_o = 1. The table's word {slot_o, place_o} comes a clock later. Materials: see rdx_shade. The
-//            pixel stream: see rdx_pixels. tap_o: each record of the rings, for test benches.
+// Formats    frame_i: held while busy_o = 1. Table's word {slot_o, place_o}: a clock later. Materials: see rdx_shade; pixels: rdx_pixels.
+//            tap_o: each record of the rings, for test benches.
 // Timing     start_i while ready_o = 1 begins a frame. done_o: its last pixel has left; error_o: it was not begun.
 // Reset      control only; then ready_o rises when the layers are swept.
 // Model      model/raydix/render.py (render_golden)
@@ -18,6 +17,7 @@ module rdx_render #(
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
@@ -55,6 +55,7 @@ module rdx_render #(
   import rdx_pkg::*;
 
   localparam int unsigned Lines = Layers > 1 ? 2 : 4;  // at work; four where they need little memory
+
   events_t events;
 
   // ---- rows ----
@@ -65,6 +66,7 @@ module rdx_render #(
   rdx_feed #(
       .D(D),
       .Rules(Rules),
+      .Clip(Clip),
       .Vecsum(Vecsum),
       .Slots(Surfaces)
   ) u_feed (
@@ -84,7 +86,6 @@ module rdx_render #(
       .line_end_o(line_end),
       .skipped_o(events.rectangle)
   );
-
   // ---- rays and hits ----
   logic hit_valid, hit_ready, look, limit_valid;
   line_t look_row;
@@ -99,6 +100,7 @@ module rdx_render #(
       .D(D),
       .U(U),
       .Rules(Rules),
+      .Clip(Clip),
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),
@@ -193,7 +195,5 @@ module rdx_render #(
   );
   assign ready_o = swept && !busy;
   wire unused = &{1'b0, y};
-
 endmodule
-
 `default_nettype wire

@@ -10,8 +10,8 @@
 //            record for each root, in order of t, and one without a hit where it ends without a further root; the last
 //            record is marked. Rays may overtake each other.
 // Timing     a new ray is taken where an empty slot comes by, in the best case every clock; a ray that needs s steps in
-//            one descent is back after ceil(s/U) turns of U*latency of rdx_step + 2 clocks. Vector sums (D = 1): a slot
-//            every Phases clocks, and a turn is made a multiple of that.
+//            one descent is back after ceil(s/U) turns of U*latency of rdx_step + 3 clocks. Vector sums (D = 1): a slot
+//            every Phases clocks, and a turn is made a multiple of that. ray_ready_o is a register.
 // Reset      status of the slots only; takes a turn after the release, in which no ray is taken.
 // Model      model/raydix/ring.py
 `default_nettype none
@@ -25,6 +25,7 @@ module rdx_ring #(
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
@@ -51,8 +52,8 @@ module rdx_ring #(
   // Vector sums whose lanes evaluate an item in several clocks: an item every Phases clocks, others are bubbles.
   localparam int unsigned Phases = D == 1 ? phases((1 << N1) - 1, Lanes) : 1;
   localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
-  localparam int unsigned Slots = (U * Latency + 2 + Phases - 1) / Phases;  // that can hold an item
-  localparam int unsigned Pad = Slots * Phases - 2 - U * Latency;  // so that the ring holds a whole number of them
+  localparam int unsigned Slots = (U * Latency + 3 + Phases - 1) / Phases;  // that can hold an item
+  localparam int unsigned Pad = Slots * Phases - 3 - U * Latency;  // so that the ring holds a whole number of them
   if (U < 1 || U > K) begin : gen_illegal_u
     $fatal(1, "rdx_ring: U = %0d; allowed: 1 to K = %0d", U, K);
   end
@@ -72,6 +73,7 @@ module rdx_ring #(
         .W(W),
         .D(D),
         .Rules(Rules),
+        .Clip(Clip),
         .HalveStages(HalveStages),
         .Lanes(Lanes),
         .General(General)
@@ -89,33 +91,31 @@ module rdx_ring #(
   end
 
   // ---- what the items began with ----
-  typedef struct packed {
-    origin_t  origin;
-    segment_t segment;
-  } first_t;
-  first_t   first;  // of the item that leaves the last unit
-  segment_t again_q;  // of the item behind the wrap
-  logic enter, filled;  // the place behind the wrap may hold an item; what leaves the last unit has entered the ring
+  origin_t  first_origin;  // of the item that leaves the last unit
+  segment_t first_segment;  // of the item behind it
+  logic next, filled;  // the place that enters next may hold an item; what leaves the last unit has entered the ring
   wire take = ray_valid_i && ray_ready_o;
-  wire origin_t origin = '{surface: ray_i.surface, x: ray_i.x, y: ray_i.y, limit: Limit ? ray_i.limit : NoLimit};
   rdx_slots #(
       .Slots(Slots),
       .Phases(Phases),
-      .T(first_t)
+      .O(origin_t),
+      .S(segment_t)
   ) u_slots (
       .clk_i,
       .rst_ni,
-      .take_i  (take),
-      .first_i ('{origin: origin, segment: segment_i}),
-      .first_o (first),
-      .enter_o (enter),
-      .phase_o (phase),
+      .take_i(take),
+      .origin_i('{surface: ray_i.surface, x: ray_i.x, y: ray_i.y, limit: Limit ? ray_i.limit : NoLimit}),
+      .segment_i,
+      .origin_o(first_origin),
+      .segment_o(first_segment),
+      .next_o(next),
+      .phase_o(phase),
       .filled_o(filled)
   );
 
   // ---- leaving: hand over the record ----
-  control_t back, leave_d, leave_q;
-  segment_t back_segment, leave_segment_q;
+  control_t back, leave_d, leave_q, wrap_q;
+  segment_t back_segment, leave_segment_q, wrap_segment_q;
   localparam type item_t = logic [$bits(control_t)+$bits(segment_t)-1:0];
   item_t last[1], padded[1];
   logic behind;
@@ -141,7 +141,7 @@ module rdx_ring #(
       .filled_i (filled),
       .control_i(back),
       .ends_i   (back_segment.ends),
-      .origin_i (first.origin),
+      .origin_i (first_origin),
       .control_o(leave_d),
       .ended_o  (behind),
       .hit_valid_o,
@@ -151,27 +151,27 @@ module rdx_ring #(
   always_ff @(posedge clk_i) begin
     leave_q <= leave_d;
     leave_segment_q <= back_segment;
-    again_q <= first.segment;
     ended_o <= behind;
   end
 
-  // ---- entering: a new ray in an empty slot, a restart from the first segment ----
-  assign ray_ready_o = filled && leave_q.status == Idle && enter;
+  // ---- entering: a new ray in an empty slot, a restart from the first segment; that there is room is known a clock before ----
+  always_ff @(posedge clk_i) ray_ready_o <= rst_ni && filled && leave_q.status == Idle && next;
   always_ff @(posedge clk_i) begin
-    enter_q <= leave_q;
-    enter_segment_q <= leave_segment_q;
+    wrap_q <= leave_q;
+    wrap_segment_q <= leave_q.status == Again ? first_segment : leave_segment_q;
+    enter_q <= wrap_q;
+    enter_segment_q <= wrap_segment_q;
     if (take) begin
       enter_q <= '0;
       {enter_q.paper, enter_q.roots, enter_q.box} <= {ray_i.paper, ray_i.roots, ray_i.box};
       enter_segment_q <= segment_i;
-    end else if (leave_q.status == Again) begin
+    end else if (wrap_q.status == Again) begin
       enter_q.t <= '0;
-      enter_q.t_min <= leave_q.t_next;
+      enter_q.t_min <= wrap_q.t_next;
       enter_q.follow <= 1'b1;
       enter_q.pending <= 1'b0;
-      enter_segment_q <= again_q;
     end
-    if (take || leave_q.status == Again) {enter_q.status, enter_q.level} <= {Run, modes_i.first_level};
+    if (take || wrap_q.status == Again) {enter_q.status, enter_q.level} <= {Run, modes_i.first_level};
   end
 
   `RDX_STREAM(a_hit, hit_valid_o, hit_ready_i, hit_o)

@@ -5,8 +5,7 @@
 // that need one, while rings of one unit do no step in vain; one ring of U = K units is the paper's pipeline.
 //
 // Formats    as rdx_ring.
-// Timing     as rdx_ring; a ray waits one clock at least in front of its ring, a hit one behind the rings where there are several.
-//            Rays may overtake each other.
+// Timing     as rdx_ring; a hit waits three clocks more. Rays may overtake each other.
 // Reset      as rdx_ring.
 // Model      model/raydix/ring.py
 `default_nettype none
@@ -21,6 +20,7 @@ module rdx_rings #(
     parameter int unsigned U = 8,
     parameter int unsigned Rings = 1,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
@@ -48,7 +48,7 @@ module rdx_rings #(
     $fatal(1, "rdx_rings: Rings = %0d, U = %0d; allowed: 1 or more, 32 step units in all", Rings, U);
   end
 
-  // ---- rays: to the first ring whose place in front is free ----
+  // ---- rays: to the first ring that has a place in this clock ----
   logic [Rings-1:0] free, chosen;
   assign ray_ready_o = |free;
   assign chosen = free & (~free + 1'b1);
@@ -87,22 +87,8 @@ module rdx_rings #(
   logic [5:0] steps[Rings];
   logic [Rings-1:0] ended;
   for (genvar r = 0; r < Rings; r++) begin : gen_ring
-    logic ray_valid, ray_ready, hit_valid, hit_ready;
+    logic hit_valid, hit_ready;
     hit_t hit;
-    ray_t ray;
-    segment_t segment;
-    rdx_register #(
-        .W($bits(ray_t) + $bits(segment_t))
-    ) u_front (
-        .clk_i,
-        .rst_ni,
-        .valid_i(ray_valid_i && chosen[r]),
-        .ready_o(free[r]),
-        .data_i ({ray_i, segment_i}),
-        .valid_o(ray_valid),
-        .ready_i(ray_ready),
-        .data_o ({ray, segment})
-    );
     rdx_ring #(
         .N1(N1),
         .K(K),
@@ -110,6 +96,7 @@ module rdx_rings #(
         .D(D),
         .U(U),
         .Rules(Rules),
+        .Clip(Clip),
         .HalveStages(HalveStages),
         .Lanes(Lanes),
         .General(General),
@@ -119,10 +106,10 @@ module rdx_rings #(
         .rst_ni,
         .form_i,
         .modes_i,
-        .ray_valid_i(ray_valid),
-        .ray_ready_o(ray_ready),
-        .ray_i(ray),
-        .segment_i(segment),
+        .ray_valid_i(ray_valid_i && chosen[r]),
+        .ray_ready_o(free[r]),
+        .ray_i,
+        .segment_i,
         .hit_valid_o(hit_valid),
         .hit_ready_i(hit_ready),
         .hit_o(hit),

@@ -16,6 +16,7 @@ module rdx_settle #(
     parameter int unsigned K = 8,
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     localparam type control_t = `RDX_CONTROL_T(N1 * K)
 ) (
     input  wire logic                         clk_i,
@@ -76,19 +77,24 @@ module rdx_settle #(
   end
 
   // ---- second clock: whether the point is outside ----
-  coord_t point[3][2];
   logic point_outside;
-  always_comb for (int unsigned axis = 0; axis < 3; axis++) point[axis] = '{default: point_i[axis]};
-  rdx_outside #(
-      .J(1),
-      .Faces(D == 1)
-  ) u_point (
-      .boundaries_i(point),
-      .box_i(control_q.box),
-      .low_i,
-      .high_i,
-      .outside_o(point_outside)
-  );
+  if (D == 1 || Clip) begin : gen_point
+    coord_t point[3][2];
+    always_comb for (int unsigned axis = 0; axis < 3; axis++) point[axis] = '{default: point_i[axis]};
+    rdx_outside #(
+        .J(1),
+        .Faces(D == 1)
+    ) u_point (
+        .boundaries_i(point),
+        .box_i(control_q.box),
+        .low_i,
+        .high_i,
+        .outside_o(point_outside)
+    );
+  end else begin : gen_no_point
+    assign point_outside = 1'b0;
+    wire unused = &{1'b0, point_i, low_i, high_i};
+  end
 
   control_t control_qq;
   logic dead_qq, last_qq, hit_q, positive_qq, spent_q;

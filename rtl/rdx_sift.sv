@@ -19,6 +19,7 @@
 module rdx_sift #(
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Levels = 3,
     parameter int unsigned Queue = 512,  // rays; a power of two
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
@@ -100,7 +101,7 @@ module rdx_sift #(
   always_comb begin
     for (int unsigned c = 0; c < Cells; c++) mixed[c] = (|positive_q[c*D+:D+1]) && !(&positive_q[c*D+:D+1]);
   end
-  logic rootless_q, beyond_q, beyond[1], beyond_late[1];
+  logic rootless_q, beyond_q, beyond_late[1];
   always_ff @(posedge clk_i) begin
     for (int unsigned i = 0; i <= Cells * D; i++) positive_q[i] <= cells[i] > 0;
     rootless_q <= rootless_i && mixed == '0;
@@ -108,27 +109,33 @@ module rdx_sift #(
   end
 
   // ---- the box ----
-  coord_t ends[3][2];
-  always_comb begin
-    for (int unsigned axis = 0; axis < 3; axis++) ends[axis] = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
+  if (Clip) begin : gen_clip
+    coord_t ends  [3] [2];
+    logic   beyond[1];
+    always_comb begin
+      for (int unsigned axis = 0; axis < 3; axis++)
+      ends[axis] = '{segment_i.ends.start[axis], segment_i.ends.stop[axis]};
+    end
+    rdx_outside #(
+        .J(1)
+    ) u_outside (
+        .boundaries_i(ends),
+        .box_i(ray_i.box),
+        .low_i('0),
+        .high_i('0),
+        .outside_o(beyond[0])
+    );
+    rdx_delay #(
+        .T(logic),
+        .Depth(Latency - 1)
+    ) u_beyond (
+        .clk_i,
+        .data_i(beyond),
+        .data_o(beyond_late)
+    );
+  end else begin : gen_no_clip
+    assign beyond_late[0] = 1'b0;
   end
-  rdx_outside #(
-      .J(1)
-  ) u_outside (
-      .boundaries_i(ends),
-      .box_i(ray_i.box),
-      .low_i('0),
-      .high_i('0),
-      .outside_o(beyond[0])
-  );
-  rdx_delay #(
-      .T(logic),
-      .Depth(Latency - 1)
-  ) u_beyond (
-      .clk_i,
-      .data_i(beyond),
-      .data_o(beyond_late)
-  );
 
   // ---- those that may have a hit ----
   wire here = valid_q[Latency-1];

@@ -20,6 +20,7 @@ module rdx_split #(
     parameter int unsigned N1 = 3,
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned HalveStages = 2,
     parameter int unsigned Wait = 3,
     parameter bit Below = 1'b0,  // 1: cells_o less by one, which a register more tells from the signs
@@ -71,16 +72,21 @@ module rdx_split #(
   );
 
   // ---- box ----
-  rdx_clip #(
-      .N1(N1),
-      .Latency(Latency)
-  ) u_clip (
-      .clk_i,
-      .start_i(segment_i.ends.start),
-      .stop_i (segment_i.ends.stop),
-      .box_i,
-      .outside_o
-  );
+  if (Clip) begin : gen_clip
+    rdx_clip #(
+        .N1(N1),
+        .Latency(Latency)
+    ) u_clip (
+        .clk_i,
+        .start_i(segment_i.ends.start),
+        .stop_i (segment_i.ends.stop),
+        .box_i,
+        .outside_o
+    );
+  end else begin : gen_no_clip
+    assign outside_o = '0;
+    wire unused = &{1'b0, box_i};
+  end
 
   // ---- the chosen cell: control points, and its ends, which take longer ----
   logic [D:0][W-1:0] here;

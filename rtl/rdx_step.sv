@@ -2,9 +2,8 @@
 // One step of the descent: subdivides the cell, chooses, and fixes the next N1 binary digits of t.
 //
 // Formats    control_*, segment_*: the item, RDX_CONTROL_T and RDX_SEGMENT_T of rdx_types.svh; ends s2p30 and s1p31,
-//            control points sWp0, digits u0p<N1*K>. A Run item comes back as Run (digits left), Hit (last digit fixed,
-//            the ends have met in the hit point), Again (nothing found here, a cell is pending) or Done. The control
-//            part of others passes unchanged, and so do the ends of a Hit, which are equal.
+//            control points sWp0, digits u0p<N1*K>. A Run item comes back as Run (digits left), Hit (the ends have met in the hit
+//            point), Again (nothing found here, a cell is pending) or Done; others pass, and so do the ends of a Hit.
 // Rounding   half up in each average; normalising is exact.    Overflow   cannot happen (rdx_halve, rdx_normalize).
 // Timing     latency rdx_pkg::step_latency clocks, one item a clock; no stall.
 //            D = 1: one item every ceil((J-1)/Lanes) clocks, where phase_i = 0
@@ -20,6 +19,7 @@ module rdx_step #(
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
@@ -39,7 +39,6 @@ module rdx_step #(
 );
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
-
   localparam int unsigned J = 1 << N1;
   localparam type cell_t = logic [N1-1:0];
   localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes);
@@ -63,8 +62,8 @@ module rdx_step #(
   logic [D:0][W-1:0] b_q;
   coord_t [2:0] point;
   logic close;
-  // the digits of t_min at a level, 0 unless they are followed
-  function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min, logic follow);
+  function automatic logic [N1-1:0] first_cell(logic [4:0] level, logic [N-1:0] t_min,
+                                               logic follow);  // 0 unless t_min is followed
     first_cell = '0;
     for (int unsigned k = 0; k < K; k++) if (follow && level == 5'(k)) first_cell = t_min[N1*(K-1-k)+:N1];
   endfunction
@@ -84,6 +83,7 @@ module rdx_step #(
         .N1(N1),
         .W(W),
         .D(D),
+        .Clip(Clip),
         .HalveStages(HalveStages),
         .Wait(SelectLatency),
         .Below(Below)
@@ -179,9 +179,10 @@ module rdx_step #(
 
   rdx_settle #(
       .N1(N1),
-      .K (K),
-      .W (W),
-      .D (D)
+      .K(K),
+      .W(W),
+      .D(D),
+      .Clip(Clip)
   ) u_settle (
       .clk_i,
       .control_i(picked_q),
@@ -195,5 +196,4 @@ module rdx_step #(
   );
   wire unused = &{1'b0, modes_i, phase_i, form_i};
 endmodule
-
 `default_nettype wire

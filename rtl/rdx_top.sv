@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The processor: descriptors and materials by AXI4-Lite, pixels by AXI4-Stream (docs/processor.md).
 //
-// A start that is queued begins when the frame before has left; then the banks of both tables are exchanged, so the host writes the
-// next frame while this one is made.
+// A queued start begins when the frame before has left; then the banks of both tables are exchanged: the host writes ahead.
 //
 // Formats    axil_*: see rdx_csr and docs/registers.md. m_axis_*: see rdx_pixels. tap_*: each record of the rings, for test benches.
 // Timing     one clock; a beat of the pixel stream a clock at most.
@@ -17,6 +16,7 @@ module rdx_top #(
     parameter int unsigned D = 4,
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
@@ -94,6 +94,7 @@ module rdx_top #(
       .D(D),
       .U(U),
       .Rules(Rules),
+      .Clip(Clip),
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),
@@ -157,6 +158,7 @@ module rdx_top #(
       .D(D),
       .U(U),
       .Rules(Rules),
+      .Clip(Clip),
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),

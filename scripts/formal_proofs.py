@@ -78,7 +78,8 @@ def fdiff(w, quadratic, places, sums=0):
 def slots(slots, phases):
     """rdx_slots of some number of slots."""
     broken = (
-        ("rdx_slots", "memory[enter_q] <= first_i", "memory[leave_q] <= first_i"),
+        ("rdx_slots", "origins[enter_q]  <= origin_i", "origins[next_q] <= origin_i"),
+        ("rdx_slots", "segments[enter_q] <= segment_i", "segments[leave_q] <= segment_i"),
         ("rdx_slots", "leave_q == slot_t'(Slots - 1)", "leave_q == slot_t'(Slots - 2)"),
     )
     says = "what an item began with comes back each turn, until its slot is given anew"
@@ -89,11 +90,11 @@ def ring(parameters, always, **rest):
     """rdx_ring with units that do what they like within their contract."""
     says = "one last record for each ray taken, none without a ray; first segments and places are the ray's own"
     broken = (
-        ("rdx_slots", "memory[enter_q] <= first_i", "memory[leave_q] <= first_i"),
+        ("rdx_slots", "segments[enter_q] <= segment_i", "segments[next_q] <= segment_i"),
         (
             "rdx_ring",
-            "leave_q.status == Idle && enter;",
-            "(leave_q.status == Idle || leave_q.status == Again) && enter;",
+            "leave_q.status == Idle && next;",
+            "(leave_q.status == Idle || leave_q.status == Again) && next;",
         ),
         ("rdx_leave", "record.last ? Idle : Again", "record.last ? Idle : status"),
         ("rdx_leave", "control_i.roots > 1 &&", "control_i.roots > 0 &&"),
@@ -103,8 +104,8 @@ def ring(parameters, always, **rest):
         broken = (
             (
                 "rdx_ring",
-                "end else if (leave_q.status == Again) begin",
-                "end else if (leave_q.status == Again && take) begin",
+                "end else if (wrap_q.status == Again) begin",
+                "end else if (wrap_q.status == Again && take) begin",
             ),
         )
     values = parameters | {"Always": always}

@@ -81,7 +81,7 @@ POINTS = {
     ),
     "render-torus": Point(
         "rdx_render",
-        {"D": 4, "U": 1, "Rings": 4, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
+        {"D": 4, "U": 1, "Rings": 4, "Rules": 1, "Clip": 0, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
         slow=True,
     ),
     "render-spiral": Point(
@@ -95,6 +95,7 @@ POINTS = {
             "VectorUnits": 1,
             "VectorRings": 2,
             "Rules": 1,
+            "Clip": 0,
             "Surfaces": 1,
             "Layers": 1,
             "MaxWidth": 1920,

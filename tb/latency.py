@@ -22,7 +22,7 @@ def phases(points, lanes):
 
 def product(degree):
     """Of rdx_product, an empty one."""
-    return (QUARTIC if degree == 4 else 0) + 4 + 3
+    return (QUARTIC if degree == 4 else 0) + 4 + 2
 
 
 def select(n1, rules):

@@ -20,7 +20,7 @@ async def start(dut, random):
     dut.hit_ready_i.value = 0
     await bench.start(dut)
     n1, degree, units, rules, stages = (bench.parameter(dut, n) for n in ("N1", "D", "U", "Rules", "HalveStages"))
-    return ring.Shape(dut, random, Slots=units * latency.step(n1, degree, stages, 0, rules) + 2)
+    return ring.Shape(dut, random, Slots=units * latency.step(n1, degree, stages, 0, rules) + 3)
 
 
 def random_rays(random, shape, count):

@@ -11,8 +11,8 @@ from raydix.formats import BOX_WIDTH, PIXEL_WIDTH, SURFACE_WIDTH
 from raydix.raster import BOX_AT, OPAQUE_AT, PAPER_AT, QUARTIC_AT, ROOTS_AT, VECTOR_AT
 
 INFO = bench.Struct(("vector", 1), ("quartic", 1), ("y0", PIXEL_WIDTH), ("y1", PIXEL_WIDTH), ("width", PIXEL_WIDTH))
-NONE, KIND, ROOTS, RECTANGLE, SURFACE, RULE = 0, 4, 5, 6, 7, 9
-ORDER = (KIND, SURFACE, RULE, ROOTS, RECTANGLE)  # of several the first counts
+NONE, KIND, ROOTS, RECTANGLE, SURFACE, RULE, CLIP = 0, 4, 5, 6, 7, 9, 10
+ORDER = (KIND, CLIP, SURFACE, RULE, ROOTS, RECTANGLE)  # of several the first counts
 CERTIFIED, PAPER = 1, 2
 
 
@@ -20,8 +20,8 @@ class Built:
     """What the design at hand has."""
 
     def __init__(self, dut):
-        self.degree, self.rules, self.vecsum, self.slots = (
-            bench.parameter(dut, name) for name in ("D", "Rules", "Vecsum", "Slots")
+        self.degree, self.rules, self.clip, self.vecsum, self.slots = (
+            bench.parameter(dut, name) for name in ("D", "Rules", "Clip", "Vecsum", "Slots")
         )
 
     def errors(self, d, size):
@@ -29,6 +29,7 @@ class Built:
         last_x, last_y = size
         return {
             KIND: not self.vecsum if d["vector"] else self.degree != 4 if d["quartic"] else self.degree == 0,
+            CLIP: not self.clip and not d["vector"] and d["box"] != 0,
             SURFACE: d["surface"] >= self.slots,
             RULE: not self.rules & (PAPER if d["paper"] else CERTIFIED),
             ROOTS: not 1 <= d["roots"] <= 4,
@@ -44,9 +45,8 @@ class Built:
 def header(random, d):
     """Word 0; what does not count is any bits."""
     word = random.getrandbits(64) & ~((1 << (OPAQUE_AT + 1)) - 1) & ((1 << 64) - 1)
-    word |= random.getrandbits(3 * BOX_WIDTH) << BOX_AT
     for name, at in (("surface", 0), ("roots", ROOTS_AT), ("paper", PAPER_AT), ("quartic", QUARTIC_AT),
-                     ("vector", VECTOR_AT), ("opaque", OPAQUE_AT)):  # fmt: skip
+                     ("vector", VECTOR_AT), ("opaque", OPAQUE_AT), ("box", BOX_AT)):  # fmt: skip
         word |= d[name] << at
     return word
 
@@ -63,6 +63,7 @@ def good(random, built, size):
         x, y = (sorted(random.randrange(n + 1) for _ in range(2)) for n in size)
         d = {"surface": random.randrange(built.slots), "roots": random.randint(1, 4)}
         d |= {name: random.getrandbits(1) for name in ("paper", "quartic", "vector", "opaque")}
+        d["box"] = random.choice((0, random.getrandbits(3 * BOX_WIDTH)))
         d |= {"x0": x[0], "x1": x[1], "y0": y[0], "y1": y[1]}
         if built.error(d, size) == NONE:
             return d
@@ -74,6 +75,8 @@ def bad(random, built, size, error):
         d = good(random, built, size)
         if error == KIND:
             d["vector"], d["quartic"] = random.getrandbits(1), random.getrandbits(1)
+        elif error == CLIP:
+            d["box"] = random.choice((1 << random.randrange(3 * BOX_WIDTH), random.getrandbits(3 * BOX_WIDTH)))
         elif error == SURFACE:
             d["surface"] = random.getrandbits(SURFACE_WIDTH)
         elif error == RULE:
@@ -183,6 +186,7 @@ async def each_error(dut):
             assert await audit(dut, random, built, size, descriptors, 0.1) == error
     wanted = {ROOTS, RECTANGLE} | ({SURFACE} if built.slots < 64 else set()) | ({RULE} if built.rules < 3 else set())
     wanted |= {KIND} if built.degree < 4 or not built.vecsum else set()
+    wanted |= {CLIP} if built.degree and not built.clip else set()
     assert seen == wanted
 
 
@@ -199,7 +203,16 @@ async def first_slot_wins(dut):
             d = good(random, built, size)
             if random.random() < (1.0 if number & 1 else 2 / built.slots):
                 for name, bits in random.sample(
-                    [("surface", 6), ("roots", 3), ("paper", 1), ("quartic", 1), ("vector", 1), ("x1", 12), ("y0", 12)],
+                    [
+                        ("surface", 6),
+                        ("roots", 3),
+                        ("paper", 1),
+                        ("quartic", 1),
+                        ("vector", 1),
+                        ("x1", 12),
+                        ("y0", 12),
+                        ("box", 15),
+                    ],
                     3,
                 ):
                     d[name] = random.getrandbits(bits)
@@ -209,7 +222,7 @@ async def first_slot_wins(dut):
 
 
 CASES = [
-    dict(D=4, Rules=3, Vecsum=0, Slots=64), dict(D=2, Rules=1, Vecsum=2, Slots=5),
+    dict(D=4, Rules=3, Vecsum=0, Slots=64), dict(D=2, Rules=1, Clip=0, Vecsum=2, Slots=5),
     dict(D=0, Rules=2, Vecsum=1, Slots=1), dict(D=4, Rules=3, Vecsum=2, Slots=3),
 ]  # fmt: skip
 

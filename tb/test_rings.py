@@ -18,7 +18,7 @@ class Rings(ring.Shape):
         values = (bench.parameter(dut, name) for name in ("N1", "D", "U", "Rules", "HalveStages", "Lanes"))
         n1, degree, units, rules, stages, lanes = values
         phases = latency.phases((1 << n1) - 1, lanes) if degree == 1 else 1
-        slots = -(-(units * latency.step(n1, degree, stages, lanes, rules) + 2) // phases)
+        slots = -(-(units * latency.step(n1, degree, stages, lanes, rules) + 3) // phases)
         super().__init__(dut, random, Slots=slots)
         self.rings = bench.parameter(dut, "Rings")
 

@@ -90,6 +90,7 @@ async def sift(dut, random, items, rootless, boxes, idle, stall):
     dut.rootless_i.value, dut.boxes_i.value = rootless, boxes
     structs = {"ray_o": bench.RAY, "segment_o": bench.segment(bench.parameter(dut, "W"), bench.parameter(dut, "D"))}
     levels = bench.parameter(dut, "Levels")
+    boxes = boxes and bench.parameter(dut, "Clip")
     why = [reason(levels, *item, rootless, boxes) for item in items]
     passed = [dict(zip(structs, item, strict=True)) for item, w in zip(items, why, strict=True) if not w]
     sink = streams_extra.sink(dut, random, stall, "ray_", structs)
@@ -125,7 +126,7 @@ async def equals_model(dut, rootless, boxes):
     seen = set()
     for idle, stall in ((0, 0), (0.3, 0.3), (0.0, 0.7)):
         seen |= set(await sift(dut, random, list(rays(dut, random, 250)), rootless, boxes, idle, stall))
-    assert seen == {0, *([ROOTLESS] * rootless), *([BEYOND] * boxes)}
+    assert seen == {0, *([ROOTLESS] * rootless), *([BEYOND] * (boxes and bench.parameter(dut, "Clip")))}
 
 
 @cocotb.test
@@ -191,10 +192,11 @@ SETS = [
     dict(W=36, D=2, Levels=1, Queue=16),
     dict(W=16, D=2, Levels=0, Queue=16),
     dict(W=24, D=4, Levels=2, Queue=64),
+    dict(W=36, D=2, Levels=2, Queue=16, Clip=0),
 ]
 
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_sift(parameters):
-    """Quartics, quadrics, narrow control points; none to three halvings."""
+    """Quartics, quadrics, narrow control points; none to three halvings; without boxes."""
     bench.run(__name__, "rdx_sift", parameters)

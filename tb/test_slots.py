@@ -15,28 +15,32 @@ async def turning(dut, random, clocks, rate):
     """
     phases = bench.parameter(dut, "Phases")
     turn = bench.parameter(dut, "Slots") * phases
-    began, compared, enters = {}, 0, None
+    began, compared, enters, next_ones = {}, 0, None, []
     dut.rst_ni.value = 0
     dut.take_i.value = 0
     await FallingEdge(dut.clk_i)
     dut.rst_ni.value = 1
     for clock in range(clocks):
-        filled, enter = (bool(int(port.value)) for port in (dut.filled_o, dut.enter_o))
+        filled, soon = (bool(int(port.value)) for port in (dut.filled_o, dut.next_o))
+        enter = bool(next_ones and next_ones[-1])  # the place that enters was the next one a clock ago
+        next_ones.append(soon)
         assert filled == (clock >= turn), f"filled_o = {filled}, {clock} clocks after the reset; a turn: {turn}"
         if filled and enter and enters is None:
             enters = clock % phases
         if enters is not None:
             since = (clock - enters) % phases
-            assert enter == (since == 0), f"clock {clock}: enter_o = {enter}"
+            assert enter == (since == 0), f"clock {clock}: next_o = {enter} a clock ago"
             assert int(dut.phase_o.value) == (since - 1) % phases, f"clock {clock}: phase_o"  # it entered a clock ago
-        place = (clock + 1) % turn  # the item that leaves the last unit could be replaced a clock later
-        if place in began:
-            assert int(dut.first_o.value) == began[place], f"clock {clock}: first_o, place {place}"
-            compared += 1
-        take, first = filled and enter and random.random() < rate, random.getrandbits(1)
+        for port, ahead in ((0, 2), (1, 1)):  # what leaves the last unit could be replaced two clocks later
+            place = (clock + ahead) % turn
+            if place in began:
+                found = int((dut.origin_o, dut.segment_o)[port].value)
+                assert found == began[place][port], f"clock {clock}: {('origin_o', 'segment_o')[port]}, place {place}"
+                compared += 1
+        take, first = filled and enter and random.random() < rate, (random.getrandbits(1), random.getrandbits(1))
         if take:
             began[clock % turn] = first
-        dut.take_i.value, dut.first_i.value = int(take), first
+        dut.take_i.value, dut.origin_i.value, dut.segment_i.value = int(take), *first
         await FallingEdge(dut.clk_i)
     assert enters is not None, "no item may enter"
     return compared

@@ -221,6 +221,7 @@ def _configure(args: argparse.Namespace) -> int:
         "N1": "asked for", "K": "digits of t over N1", "W": "asked for", "U": "asked for",
         "D": {0: "no algebraic surface", 2: "quadrics only", 4: "a quartic"}[config.degree],
         "Rules": f"the {config.rule} rule only",
+        "Clip": "a box cuts an algebraic surface" if config.clip else "no box cuts an algebraic surface",
         "Vecsum": {"none": "no spiral", "helix": "helices only", "general": "spirals that grow, or parts of a turn"}[
             config.vecsum
         ],

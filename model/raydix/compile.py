@@ -126,7 +126,7 @@ class Placed(NamedTuple):
         return self.e + z * (self.f + a * self.r + b * self.u)
 
 
-def _box(surface):
+def clip_box(surface):
     """The local box (low, high) that holds all that is to be seen, and which axes the clip box cuts."""
     bounds = bounding_box(surface)
     clip = surface.clip
@@ -281,7 +281,7 @@ def roots_wanted(surface, config: Config) -> int:
 def compile_scene(scene: Scene, config: Config) -> CompiledFrame:
     """The words of a frame.
 
-    Raises :class:`~raydix.scene.SceneError` where a scene does not fit the configured words or needs a degree
+    Raises :class:`~raydix.scene.SceneError` where a scene does not fit the configured words or needs a box or a degree
     that the configuration does not build.
     """
     with mp.workprec(PRECISION):
@@ -302,7 +302,7 @@ def compile_scene(scene: Scene, config: Config) -> CompiledFrame:
 def _view(camera, surface):
     """Box, screen rectangle and depth range of a surface; None if nothing of it can be seen."""
     matrix = mp.matrix(surface.matrix) * mp.mpf(surface.scale)
-    low, high, cut = _box(surface)
+    low, high, cut = clip_box(surface)
     if any(low[i] >= high[i] for i in range(3)):
         return None
     corners = [matrix * c + _vector(surface.center) - camera.eye for c in _corners(low, high)]
@@ -355,6 +355,11 @@ def _algebraic(scene, config, index, surface, h, e, low, high, cut, columns, row
         raise SceneError(
             f"{scene.path}: surface[{index}].type: found '{surface.type}'{', a quartic' if quartic else ''}; "
             f"allowed: {allowed} in a configuration of degree {config.degree}"
+        )
+    if any(cut) and not config.clip:
+        raise SceneError(
+            f"{scene.path}: surface[{index}] ({surface.type}).clip: found a surface that a box cuts; "
+            "allowed: surfaces within their boxes in a configuration without clip"
         )
     coordinates, box, origin, unit = _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows)
     flags = quartic << QUARTIC_AT

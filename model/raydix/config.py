@@ -28,6 +28,7 @@ class Config:
     lanes  evaluators in a step unit of the vector-sum ring, 1 to J-1; they share the J-1 new boundaries of a step
     vector_units  step units in each vector-sum ring, 1 to K
     vector_rings  vector-sum rings side by side; vector_rings*vector_units is at most 32
+    clip   whether boxes can cut algebraic surfaces
     surfaces  of the processor: descriptors, and surface numbers, 1 to 64
     layers    hits of a pixel that it keeps, 1 to 8
     max_width  pixels of its longest line, a multiple of `beat`, up to 4,096
@@ -49,6 +50,7 @@ class Config:
     vector_units: int = 1
     rings: int = 1
     vector_rings: int = 1
+    clip: bool = True
     surfaces: int = 64
     layers: int = 4
     max_width: int = 1920
@@ -82,6 +84,7 @@ class Config:
             object.__setattr__(self, "lanes", self.cells - 1)
         check(1 <= self.steps <= 32 // self.n1, "steps", f"1 to {32 // self.n1} (n1*steps is at most 32)")
         check(16 <= self.width <= 48, "width", "16 to 48")
+        check(isinstance(self.clip, bool), "clip", "True or False")
         check(self.degree in (0, 2, 4), "degree", "4 (quartics too), 2 (quadrics) or 0 (no algebraic surfaces)")
         check(self.vecsum in VECSUMS, "vecsum", "none, helix or general")
         check(self.degree or self.vecsum != "none", "degree", "2 or 4 unless vecsum is helix or general")

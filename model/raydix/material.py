@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import mpmath as mp
 
-from .compile import PRECISION, _box, _cross, _unit, _vector
+from .compile import PRECISION, _cross, _unit, _vector, clip_box
 from .compile_swirl import swirl_words
 from .formats import MATERIAL_INDEX, MATERIAL_WORDS, SWIRL_FIRST, UNIT_FRAC
 from .gradient import CONSTANT_FRAC
@@ -85,7 +85,7 @@ def _quadrics(surface, origin, unit) -> dict[str, list[int]]:
     if shape.q1 is None or shape.q2 is None:
         factor = 1 / largest3
         return {"q3_matrix": _rounded(matrix3, factor), "q3_linear": _rounded(linear3, factor)}
-    low, high, _ = _box(surface)
+    low, high, _ = clip_box(surface)
     reach = [min(REACH, (high[i] - low[i]) / 2 / mp.mpf(unit[i])) for i in range(3)]
     quadrics = [_substituted(q, origin, unit) for q in (shape.q1, shape.q2)]
     factors = []

@@ -92,6 +92,7 @@ def parameters(config: Config) -> dict[str, int]:
         "D": config.degree,
         "U": config.units,
         "Rules": RULES[config.rules],
+        "Clip": int(config.clip),
         "Vecsum": VECSUMS[config.vecsum],
         "Lanes": config.lanes,
         "VectorUnits": config.vector_units,

@@ -15,19 +15,21 @@ module rdx_fifo_cover #(
     input wire logic          ready_i,
     input wire logic [Bits:0] write_place_q,
     input wire logic [Bits:0] read_place_q,
-    input wire logic          read_valid_q,
+    input wire logic          next_valid,
     input wire logic          filled,
     input wire logic          store,
     input wire logic          fetch
 );
   `RDX_COVER_RUN(full, !ready_o && valid_i)
   `RDX_COVER_RUN(full_and_one_leaves, !ready_o && valid_o && ready_i)
-  `RDX_COVER_RUN(empty, !filled && !read_valid_q && !valid_o)
-  `RDX_COVER_RUN(last_leaves, !filled && !read_valid_q && valid_o && ready_i)
+  `RDX_COVER_RUN(empty, !filled && !next_valid && !valid_o)
+  `RDX_COVER_RUN(last_leaves, !filled && !next_valid && valid_o && ready_i)
   `RDX_COVER_RUN(store_and_fetch, store && fetch)
-  `RDX_COVER_RUN(head_waits, valid_o && !ready_i && read_valid_q && filled)
-  `RDX_COVER_RUN(fetch_into_empty, fetch && !read_valid_q)
-  `RDX_COVER_RUN(bubble_at_head, read_valid_q && !valid_o)
+  `RDX_COVER_RUN(head_waits, valid_o && !ready_i && next_valid && filled)
+  if (Depth > 16) begin : gen_block
+    `RDX_COVER_RUN(fetch_into_empty, fetch && !next_valid)
+  end
+  `RDX_COVER_RUN(bubble_at_head, next_valid && !valid_o)
   `RDX_COVER_RUN(write_wraps, store && &write_place_q[Bits-1:0])
   `RDX_COVER_RUN(read_wraps, fetch && &read_place_q[Bits-1:0])
 endmodule

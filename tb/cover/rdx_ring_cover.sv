@@ -18,16 +18,17 @@ module rdx_ring_cover #(
     input wire logic          hit_valid_o,
     input wire logic          hit_ready_i,
     input wire control_t      back,
-    input wire control_t      leave_q,
+    input wire logic          ray_ready_o,
+    input wire logic          next,
     input wire logic          filled,
-    input wire logic          enter,
     input wire logic          behind,
     input wire logic          take
 );
   import rdx_pkg::*;
 
   logic took_q;
-  always_ff @(posedge clk_i) took_q <= take;
+  logic next_q;  // the place that enters may hold an item
+  always_ff @(posedge clk_i) {took_q, next_q} <= {take, next};
   wire again = filled && back.status == Again;
 
   for (genvar r = 1; r <= 4; r++) begin : gen_roots
@@ -39,8 +40,8 @@ module rdx_ring_cover #(
     end
   end
   `RDX_COVER_RUN(first_turn, !filled && ray_valid_i)
-  `RDX_COVER_RUN(empty_slot_not_taken, filled && enter && leave_q.status == Idle && !ray_valid_i)
-  `RDX_COVER_RUN(full, filled && enter && leave_q.status != Idle && ray_valid_i)
+  `RDX_COVER_RUN(empty_slot_not_taken, ray_ready_o && !ray_valid_i)
+  `RDX_COVER_RUN(full, filled && next_q && !ray_ready_o && ray_valid_i)
   `RDX_COVER_RUN(ray_each_slot, took_q && take)
   `RDX_COVER_RUN(slot_taken_again, take && !took_q)
   `RDX_COVER_RUN(restarted_at_dead_end, again)

@@ -11,7 +11,7 @@ module rdx_slots_cover #(
     input wire logic        clk_i,
     input wire logic        rst_ni,
     input wire logic        take_i,
-    input wire logic        enter_o,
+    input wire logic        next_o,
     input wire logic        filled_o,
     input wire slot_t       enter_q,
     input wire slot_t       leave_q,
@@ -24,9 +24,9 @@ module rdx_slots_cover #(
   `RDX_COVER_RUN(takes_in_first_slot, take_i && enter_q == '0)
   `RDX_COVER_RUN(takes_in_last_slot, take_i && 32'(enter_q) == Slots - 1)
   `RDX_COVER_RUN(turns, filled_o && leave_q == '0)
-  `RDX_COVER_RUN(slot_not_taken, filled_o && enter_o && !take_i)
+  `RDX_COVER_RUN(slot_not_taken, filled_o && next_o && !take_i)
   if (Phases > 1) begin : gen_bubble
-    `RDX_COVER_RUN(bubble, !enter_o)
+    `RDX_COVER_RUN(bubble, !next_o)
   end
 endmodule
 

@@ -33,7 +33,7 @@ module formal_ring #(
   localparam int unsigned Rules = RuleCertified;
   localparam int unsigned Phases = D == 1 ? phases((1 << N1) - 1, Lanes) : 1;
   localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
-  localparam int unsigned Slots = (U * Latency + 2 + Phases - 1) / Phases;
+  localparam int unsigned Slots = (U * Latency + 3 + Phases - 1) / Phases;
   localparam int unsigned MostSteps = (1 << StepsWidth) - 1;
 
   logic ray_ready, hit_valid;
@@ -83,13 +83,14 @@ module formal_ring #(
   wire flying = taken_q && !answered_q;
 
   // ---- the marked item: in one place of the ring, or its last record is in the output's register ----
-  logic [U*Latency+1:0] here;
+  logic [U*Latency+2:0] here;
   assign here[0] = u_ring.enter_q.status != Idle && u_ring.enter_q.box[0][0];
   assign here[1] = u_ring.leave_q.status != Idle && u_ring.leave_q.box[0][0];
+  assign here[2] = u_ring.wrap_q.status != Idle && u_ring.wrap_q.box[0][0];
   for (genvar u = 0; u < U; u++) begin : gen_unit
     for (genvar i = 0; i < Latency; i++) begin : gen_stage
       wire control_t item = u_ring.gen_unit[u].u_step.control_q[i];
-      assign here[2+u*Latency+i] = item.status != Idle && item.box[0][0];
+      assign here[3+u*Latency+i] = item.status != Idle && item.box[0][0];
     end
   end
   wire handed = hit_valid && hit.x[0] && hit.last;
@@ -122,11 +123,11 @@ module formal_ring #(
   end
 
   // the record is of the item that leaves, and its memory is the ray's
-  `LEMMA(0, p_memory, !(u_ring.u_leave.offer && rst_ni) || u_ring.first.origin.x[0] == u_ring.back.box[0][0])
+  `LEMMA(0, p_memory, !(u_ring.u_leave.offer && rst_ni) || u_ring.first_origin.x[0] == u_ring.back.box[0][0])
   // so is the limit that any item is compared with
   `LEMMA(
       0, p_limit,
-      !(rst_ni && u_ring.filled && u_ring.back.status != Idle) || u_ring.first.origin.limit[0] == u_ring.back.box[0][0])
+      !(rst_ni && u_ring.filled && u_ring.back.status != Idle) || u_ring.first_origin.limit[0] == u_ring.back.box[0][0])
   // what begins a descent has its ray's own segment
   wire begins = u_ring.enter_q.status == Run && u_ring.enter_q.level == '0;
   `LEMMA(0, p_segment,

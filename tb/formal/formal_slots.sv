@@ -14,55 +14,63 @@ module formal_slots #(
     input wire logic         clk_i,
     input wire logic         rst_ni,
     input wire logic         take_i,
-    input wire logic [W-1:0] first_i
+    input wire logic [W-1:0] origin_i,
+    input wire logic [W-1:0] segment_i
 );
 
   localparam int unsigned Turn = Slots * Phases;
-  logic [W-1:0] first;
-  logic [  3:0] phase;
-  logic enter, filled;
+  logic [W-1:0] origin, segment;
+  logic [3:0] phase;
+  logic next, filled;
   rdx_slots #(
       .Slots(Slots),
       .Phases(Phases),
-      .T(logic [W-1:0])
+      .O(logic [W-1:0]),
+      .S(logic [W-1:0])
   ) u_slots (
       .clk_i,
       .rst_ni,
       .take_i,
-      .first_i,
-      .first_o (first),
-      .enter_o (enter),
-      .phase_o (phase),
+      .origin_i,
+      .segment_i,
+      .origin_o(origin),
+      .segment_o(segment),
+      .next_o(next),
+      .phase_o(phase),
       .filled_o(filled)
   );
 
   `RESET_FIRST
   `GIVEN(g_no_reset, !began_q || rst_ni)
-  `GIVEN(g_enter, !take_i || (enter && filled))
+  logic enter_q;  // the place that enters is the first of its slot
+  always_ff @(posedge clk_i) enter_q <= next;
+  `GIVEN(g_enter, !take_i || (enter_q && filled))
 
   // ---- the watched item: written once at its entry, kept since ----
   logic watch;  // anything: the driver leaves what nothing drives free
   logic held_q = 1'b0;
-  logic [W-1:0] value_q;
+  logic [W-1:0] origin_q, segment_q;
   logic [7:0] age_q = '0;  // clocks since the entry, within a turn
   wire begins = take_i && watch && !held_q && rst_ni;
-  // it enters in clock 0, is at the first unit in clock 1, and leaves the last unit a turn less one clock after its entry
-  wire leaves = held_q && age_q == 8'(Turn - 1);
+  // it enters in clock 0, is at the first unit in clock 1, and leaves the last unit a turn less two clocks after its entry
+  wire leaves = held_q && age_q == 8'(Turn - 2);
+  wire left = held_q && age_q == 8'(Turn - 1);
   wire at_entry = held_q && age_q == 8'(0);
   `GIVEN(g_kept, !(take_i && at_entry))  // while the item is there its place is not free
   always_ff @(posedge clk_i) begin
     if (begins) begin
-      held_q  <= 1'b1;
-      value_q <= first_i;
+      held_q <= 1'b1;
+      {origin_q, segment_q} <= {origin_i, segment_i};
     end
     if (begins) age_q <= 8'd1;
     else if (held_q) age_q <= age_q == 8'(Turn - 1) ? '0 : age_q + 1'b1;
   end
 
-  `CHECK(p_back, !leaves || first == value_q)
-  `CHECK(p_enter, !at_entry || enter)
+  `CHECK(p_origin, !leaves || origin == origin_q)
+  `CHECK(p_segment, !left || segment == segment_q)
+  `CHECK(p_enter, !at_entry || enter_q)
   `CHECK(p_phase, !(held_q && age_q == 8'd1) || phase == '0)
-  `REACH(r_turns, leaves && first != first_i)
+  `REACH(r_turns, leaves && origin != origin_i)
 
 endmodule
 
