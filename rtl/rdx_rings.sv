@@ -5,7 +5,7 @@
 // that need one, while rings of one unit do no step in vain; one ring of U = K units is the paper's pipeline.
 //
 // Formats    as rdx_ring.
-// Timing     as rdx_ring; a hit waits three clocks more. Rays may overtake each other.
+// Timing     as rdx_ring; a hit waits four clocks more. Rays may overtake each other.
 // Reset      as rdx_ring.
 // Model      model/raydix/ring.py
 `default_nettype none
@@ -70,8 +70,9 @@ module rdx_rings #(
       .ready_i(merged_ready),
       .data_o (merged)
   );
-  rdx_register #(
-      .W($bits(hit_t))
+  rdx_fifo #(
+      .W($bits(hit_t)),
+      .Depth(2)
   ) u_out (
       .clk_i,
       .rst_ni,
