@@ -117,6 +117,22 @@ def ring(parameters, always, **rest):
     )  # fmt: skip
 
 
+QUEUE = ("rdx_fifo", "wire advance = !valid_o || ready_i;", "wire advance = 1'b1;")
+
+
+def fifo(depth):
+    """rdx_fifo of some depth."""
+    broken = (
+        ("rdx_fifo", "if (advance && next_valid) data_o <= next;", "if (advance) data_o <= data_i;"),
+        ("rdx_fifo", "if (store) write_place_q <=", "if (valid_i) write_place_q <="),
+        QUEUE,
+    )
+    says = (
+        "what comes out is what came in, in its order, nothing lost or doubled; a word is offered within three clocks"
+    )
+    return Proof("formal_fifo", "rdx_fifo", says, {"W": 1, "Depth": depth}, "pdr", broken, depth=80)
+
+
 def stream(top, parameters, *broken, method="induction 2", **rest):
     """The rules of streams, which a module states itself."""
     says = "at each stream port valid stays until ready, and so does the data"
@@ -138,8 +154,26 @@ THROUGH = (
     "  logic held_q;\n  assign valid_o = held_q && ready_i;\n"
     "  always_ff @(posedge clk_i) begin\n    if (!rst_ni) held_q <= 1'b0;\n    else if (ready_o) held_q <= valid_i;\n",
 )
-QUEUE = ("rdx_fifo", "wire  advance = !valid_o || ready_i;", "wire  advance = 1'b1;")
 THROUGH_QUEUE = ("rdx_product", "rays_valid && points_valid;", "rays_valid && points_valid && ray_ready_i;")
+LAST = (
+    "  rdx_fifo #(\n      .W($bits(hit_t)),\n      .Depth(2)\n  ) u_out (\n      .clk_i,\n      .rst_ni,\n"
+    "      .valid_i(merged_valid),\n      .ready_o(merged_ready),\n      .data_i (merged),\n      .valid_o({}),\n"
+)
+THROUGH_RINGS = (
+    "rdx_rings",
+    LAST.format("hit_valid_o"),
+    "  logic held;\n  assign hit_valid_o = held && hit_ready_i;\n" + LAST.format("held"),
+)
+QUEUED = (
+    "  rdx_fifo #(\n      .W($bits(ray_t) + $bits(segment_t)),\n      .Depth(Queue)\n  ) u_queue (\n      .clk_i,\n"
+    "      .rst_ni,\n      .valid_i(here && !drop),\n      .ready_o(queue_ready),\n      .data_i ({{ray, segment}}),\n"
+    "      .valid_o({}),\n"
+)
+THROUGH_SIFT = (
+    "rdx_sift",
+    QUEUED.format("ray_valid_o"),
+    "  logic held;\n  assign ray_valid_o = held && ray_ready_i;\n" + QUEUED.format("held"),
+)
 THROUGH_MERGE = ("rdx_merge", "valid_o = |valid_i;", "valid_o = |(valid_i & ready_o);")
 CORE = SMALL | {"Vecsum": 2, "Lanes": 1}
 VECTOR = {"N1": 1, "K": 2, "Rules": 1, "Lanes": 1}
@@ -210,8 +244,8 @@ PROOFS = {
     "slots": slots(6, 1),
     "slots-phases": slots(5, 3),
     "paths-core": paths("rdx_core", CORE, THROUGH_MERGE, stand_ins=STAND_INS, replace=(SHORT,)),
-    "paths-algebraic": paths("rdx_algebraic", SMALL, THROUGH, stand_ins=("rdx_step",)),
-    "paths-vector": paths("rdx_vector", VECTOR, THROUGH, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,)),
+    "paths-algebraic": paths("rdx_algebraic", SMALL, THROUGH_RINGS, stand_ins=("rdx_step",)),
+    "paths-vector": paths("rdx_vector", VECTOR, THROUGH_RINGS, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,)),
     "paths-ring": paths("rdx_ring", SMALL, THROUGH, stand_ins=("rdx_step",)),
     "paths-product": paths("rdx_product", {"D": 2}, THROUGH_QUEUE),
     "paths-raster": paths(
@@ -223,17 +257,25 @@ PROOFS = {
     "stream-register": stream(
         "rdx_register", {"W": 32}, ("rdx_register", "if (ready_o && valid_i) data_o", "if (valid_i) data_o")
     ),
+    "fifo": fifo(4),
+    "fifo-block": fifo(32),
+    "stream-fifo": stream("rdx_fifo", {"W": 202, "Depth": 16}, QUEUE),
+    "stream-fifo-block": stream("rdx_fifo", {"W": 60, "Depth": 32}, QUEUE),
+    "stream-sift": stream("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, QUEUE),
+    "paths-sift": paths("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, THROUGH_SIFT),
+    "stream-rings": stream("rdx_rings", SMALL | {"Rings": 2}, QUEUE, stand_ins=("rdx_step",), depth=40),
+    "paths-rings": paths("rdx_rings", SMALL | {"Rings": 2}, THROUGH_RINGS, stand_ins=("rdx_step",)),
     "stream-product": stream("rdx_product", {"D": 2}, QUEUE),
     "stream-product-d4": stream("rdx_product", {"D": 4}, QUEUE, stand_ins=("rdx_quartic",)),
     "stream-raster": stream("rdx_raster", {"D": 2, "Vector": 1}, WALK, depth=50),
     "stream-raster-d4": stream("rdx_raster", {"D": 4, "Vector": 1}, WALK, depth=50),
     "stream-ends": stream("rdx_ends", {"Lanes": 1}, held("rdx_ends"), stand_ins=("rdx_vecsum",), replace=(SHORT,)),
     "stream-ring": stream("rdx_ring", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
-    "stream-algebraic": stream("rdx_algebraic", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
+    "stream-algebraic": stream("rdx_algebraic", SMALL, QUEUE, stand_ins=("rdx_step",), depth=40),
     "stream-vector": stream(
-        "rdx_vector", VECTOR, OUTPUT, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,), depth=50
+        "rdx_vector", VECTOR, QUEUE, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,), depth=50
     ),
-    "stream-core": stream("rdx_core", CORE, OUTPUT, stand_ins=STAND_INS, replace=(SHORT,), depth=70),
+    "stream-core": stream("rdx_core", CORE, QUEUE, stand_ins=STAND_INS, replace=(SHORT,), depth=70),
     "ring": ring({"U": 1}, 0),
     "ring-time": ring({"U": 1}, 1),
     "merge": Proof(

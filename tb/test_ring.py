@@ -442,7 +442,7 @@ CASES = [
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)
 def test_ring(parameters):
-    """One shared unit, the full pipeline, and in between; each rule alone and both; with limits and boxes, and without."""
+    """One shared unit, the full pipeline, and in between; each rule alone and both; with limits, boxes, and without."""
     bench.run(__name__, "rdx_ring", parameters)
 
 

@@ -13,6 +13,7 @@ module rdx_step #(
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
+    parameter bit Clip = 1'b1,
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
