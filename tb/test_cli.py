@@ -219,6 +219,23 @@ def test_export(tmp_path, rendered):
     assert json.loads((tmp_path / "new" / "stimulus" / "parameters.json").read_text())["rdx_core"]["N1"] == 3
 
 
+@pytest.mark.parametrize(
+    ("scene", "given"),
+    [("torus", {"D": 4, "Clip": 0, "Layers": 1}), ("hyperboloid", {"D": 2, "Clip": 1}), ("glass", {"Surfaces": 3, "Layers": 7}),
+     ("spiral", {"D": 0, "Vecsum": 1, "Clip": 0})],
+)  # fmt: skip
+def test_configure(scene, given, capsys):
+    """The smallest processor for a scene, as a table with reasons, as options for Verilator, and as JSON."""
+    path = str(ROOT / "scenes" / f"{scene}.toml")
+    assert main(["configure", path, "--size", "100x75", "--beat", "2"]) == 0
+    text = capsys.readouterr().out
+    assert main(["configure", path, "--size", "100x75", "--beat", "2", "--json"]) == 0
+    values = json.loads(capsys.readouterr().out)
+    assert text.splitlines()[-1] == " ".join(f"-G{name}={value}" for name, value in values.items())
+    assert all(name in text for name in values)
+    assert values | given | {"MaxWidth": 100, "Pixels": 2} == values
+
+
 def test_nothing_in_view(tmp_path, capsys):
     """A camera that looks away gives a picture of the background and says so."""
     scene = tmp_path / "away.toml"

@@ -2,6 +2,7 @@
 """Scene to words: every image size compiles, and the forward differences stay within their accumulators."""
 
 import random
+from pathlib import Path
 
 import pytest
 
@@ -10,13 +11,16 @@ from raydix.compile import compile_scene
 from raydix.config import Config
 from raydix.core import scratch
 from raydix.fdiff import VALUE, next_pixel, next_row
-from raydix.formats import COORD_ACC_WIDTH, COORD_LANES, OPERAND_SHIFT
+from raydix.fit import families
+from raydix.formats import BOX_WIDTH, COORD_ACC_WIDTH, COORD_LANES, OPERAND_SHIFT
 from raydix.kernel import words
-from raydix.raster import load_lanes
-from raydix.scene import load_scene
+from raydix.raster import BOX_AT, load_lanes
+from raydix.scene import SceneError, load_scene
 from test_random_scenes import TYPES, scene_text
 
 SIZES = [(1, 1), (1, 3), (2, 1), (3, 2), (9, 7)]
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
 
 
 def lanes(surface):
@@ -67,3 +71,19 @@ def test_spirals_in_small_images(size):
                 assert max(map(abs, values[:COORD_LANES])) <= (7 << COORD_ACC_WIDTH - 4) + sum(size)
                 assert not any(values[COORD_LANES:])
     assert seen == 10
+
+
+@pytest.mark.parametrize("scene", sorted(SCENES.glob("*.toml")), ids=lambda path: path.stem)
+def test_what_a_scene_needs(scene):
+    """Without boxes a scene compiles just where :func:`families` says that it needs none, to the same words."""
+    loaded = load_scene(scene, 64, 48)
+    config = Config(**families(loaded))
+    whole = compile_scene(loaded, config.with_(clip=True))
+    boxes = [s.words[0] >> BOX_AT & (1 << 3 * BOX_WIDTH) - 1 for s in whole.surfaces if not s.is_vector_sum]
+    if config.clip:
+        with pytest.raises(SceneError, match="clip: found a surface that a box cuts; allowed: .* without clip"):
+            compile_scene(loaded, config.with_(clip=False))
+    else:
+        assert not any(boxes)
+        assert [s.words for s in compile_scene(loaded, config).surfaces] == [s.words for s in whole.surfaces]
+    assert config.clip or not any(boxes)
