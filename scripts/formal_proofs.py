@@ -222,7 +222,7 @@ PROOFS = {
             ("rdx_pick", "control_o.t_next  = control_i.t;", "control_o.t_next  = control_i.t_next;"),
         ),
     ),
-    "outside": outside(0, ("& face_bits);", "& (face_bits >> 1));")),
+    "outside": outside(0, ("left = left << (1 << (i - 1));", "left = left << (1 << i);")),
     "outside-faces": outside(1, ("boundaries_i[axis][j] > high_i[axis]", "boundaries_i[axis][j] >= high_i[axis]")),
     "fdiff": fdiff(64, 1, 2, 1),
     "fdiff-closed": fdiff(8, 1, 2),

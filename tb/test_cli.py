@@ -221,8 +221,8 @@ def test_export(tmp_path, rendered):
 
 @pytest.mark.parametrize(
     ("scene", "given"),
-    [("torus", {"D": 4, "Clip": 0, "Layers": 1}), ("hyperboloid", {"D": 2, "Clip": 1}), ("glass", {"Surfaces": 3, "Layers": 7}),
-     ("spiral", {"D": 0, "Vecsum": 1, "Clip": 0})],
+    [("torus", {"D": 4, "Clip": 0, "Layers": 1}), ("hyperboloid", {"D": 2, "Clip": 1}),
+     ("glass", {"Surfaces": 3, "Layers": 7}), ("spiral", {"D": 0, "Vecsum": 1, "Clip": 0})],
 )  # fmt: skip
 def test_configure(scene, given, capsys):
     """The smallest processor for a scene, as a table with reasons, as options for Verilator, and as JSON."""

@@ -24,6 +24,20 @@ def test_fast_proofs():
     assert len(re.findall(r": refuted: ", run.stdout)) >= len(FAST)
 
 
+def test_every_change_fits():
+    """What a proof replaces, and each broken variant, is in the sources as they are now."""
+    program = f"""
+import sys
+sys.path.insert(0, {str(ROOT / "scripts")!r})
+import formal
+for name, proof in formal.PROOFS.items():
+    for change in (None, *proof.broken):
+        assert formal.files(proof, change), name
+"""
+    run = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
 def test_broken_module_is_refuted(tmp_path):
     """A proof of a design that is broken fails, and the script says so: nothing of the verdict comes from the table."""
     program = f"""
