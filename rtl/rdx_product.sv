@@ -8,7 +8,7 @@
 //            segment_o.b: sWp0, normalised so that the largest coefficient uses all W bits.
 // Rounding   operands half up (2^-27), products floor (2^-12), result floor to W bits; all else is exact.
 // Overflow   cannot happen: compile keeps |Q1|, |Q2| < 2^62 - 2^26 and |Q3| <= 2^59 (2^60 without a product), so |6F| < 2^63.
-// Timing     a ray a clock; it is at the output 14 clocks later (7 for D = 2) at the earliest. No stage waits: rays are
+// Timing     a ray a clock; it is at the output 13 clocks later (6 for D = 2) at the earliest. No stage waits: rays are
 //            let in as long as there is a place in the queues at the end for every ray under way, and ray_ready_o is a register.
 // Reset      control only.
 // Error      docs/method.md, "Rounding"

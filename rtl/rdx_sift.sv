@@ -8,7 +8,7 @@
 //
 // Formats    ray_i, segment_i: as rdx_ring. rootless_i, boxes_i: 1 where that reason counts.
 // Timing     one ray a clock; ray_ready_o is a register: the queue has a place for every ray under way. A ray is at the output
-//            Levels*ceil(D/2) + 5 clocks later at the earliest. rootless_o, beyond_o: a ray is dropped in this clock,
+//            Levels*ceil(D/2) + 5 clocks later at the earliest (Queue = 16: + 4). rootless_o, beyond_o: a ray is dropped in this clock,
 //            row_o: lowest bits of its row.
 // Reset      control only.
 // Model      none: it changes no hit
