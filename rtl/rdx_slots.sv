@@ -9,7 +9,7 @@
 //            clock; segment_o: of the one that left it a clock ago. next_o: the place that enters in the next clock is the first of
 //            its slot. phase_o: of the place at the first unit. filled_o: the ring has turned once since the reset, so what
 //            leaves the last unit has entered it.
-// Reset      the counters and filled_o.
+// Reset      the counter, the phases and filled_o.
 // Model      none: which slot an item has changes no value
 `default_nettype none
 
@@ -39,13 +39,13 @@ module rdx_slots #(
   assign behind = !turned ? leave_q : last ? '0 : leave_q + 1'b1;
   always_ff @(posedge clk_i) begin
     {enter_q, next_q} <= {next_q, leave_q};
-    {phase_o, enter_phase_q, next_phase_q} <= {enter_phase_q, next_phase_q, leave_phase_q};
     if (!rst_ni) begin
       leave_q <= '0;
-      leave_phase_q <= '0;
+      {phase_o, enter_phase_q, next_phase_q, leave_phase_q} <= '0;
       filled_o <= 1'b0;
     end else begin
       leave_q <= behind;
+      {phase_o, enter_phase_q, next_phase_q} <= {enter_phase_q, next_phase_q, leave_phase_q};
       leave_phase_q <= turned ? '0 : leave_phase_q + 1'b1;
       if (last && turned) filled_o <= 1'b1;
     end
