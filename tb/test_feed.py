@@ -154,7 +154,7 @@ async def opaque_surfaces(dut):
 
 @cocotb.test
 async def abort_and_empty_frame(dut):
-    """After abort_i (behind the start) at most one row begins, and is whole; an empty frame has none; every line ends."""
+    """After abort_i at most one row begins, and is whole; an empty frame has none; every line ends."""
     random = bench.rng()
     await walking.rest(dut)
     for _ in range(12):
