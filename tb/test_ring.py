@@ -382,7 +382,7 @@ async def reset_empties(dut):
     dut.hit_ready_i.value = 0
     old = [random_ray(random, shape, 3000 + number) for number in range(2 * shape.slots)]
     task = feed(dut, shape, old, random)
-    for _ in range(random.randint(3, 6) * shape.turn):
+    for _ in range((random.randint(3, 6) + -(-shape.steps // shape.units)) * shape.turn):
         await FallingEdge(dut.clk_i)
     assert dut.hit_valid_o.value == 1  # there is work in it
     task.cancel()

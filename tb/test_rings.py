@@ -69,7 +69,7 @@ async def reset_empties(dut):
     shape = await start(dut, random)
     old = [ring.random_ray(random, shape, 3000 + number) for number in range(3 * shape.rings * shape.slots)]
     task = ring.feed(dut, shape, old, random)
-    for _ in range(random.randint(3, 6) * shape.turn):
+    for _ in range((random.randint(3, 6) + -(-shape.steps // shape.units)) * shape.turn):
         await FallingEdge(dut.clk_i)
     assert dut.hit_valid_o.value == 1
     task.cancel()
