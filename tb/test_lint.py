@@ -16,6 +16,7 @@ from raydix.rtl import (
     RTL,
     environment,
     parameters,
+    reached,
     sources,
     top_parameters,
     top_sources,
@@ -173,3 +174,10 @@ def test_ruff():
     """ruff finds nothing in the Python sources."""
     check(sys.executable, "-m", "ruff", "check", "model", "tb", "scripts", cwd=ROOT)
     check(sys.executable, "-m", "ruff", "format", "--check", "model", "scripts", "tb", cwd=ROOT)
+
+
+def test_what_a_module_needs():
+    """A test builds what its module reaches and no more, so a change elsewhere leaves its simulator as it is."""
+    assert [path.stem for path in reached("rdx_fifo")] == ["rdx_swirl_pkg", "rdx_pkg", "rdx_fifo"]
+    unused = {path.stem for path in top_sources()} - {path.stem for path in reached("rdx_top")}
+    assert unused == {"rdx_fdiff", "rdx_raster", "rdx_core"}  # the intersection core without the processor

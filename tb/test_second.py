@@ -79,12 +79,12 @@ BREAKS = [
 @pytest.mark.parametrize(("module", "old", "new"), BREAKS, ids=[module for module, *_ in BREAKS])
 def test_missing_reset_is_found(icarus, monkeypatch, tmp_path, capfd, module, old, new):
     """Without the reset of a register of control an output of control is unknown."""
-    files = second.sources()
     text = (RTL / f"{module}.sv").read_text()
     assert text.count(old) == 1
     broken = tmp_path / f"{module}.sv"
     broken.write_text(text.replace(old, new))
-    monkeypatch.setattr(second, "sources", lambda: [broken if p.name == broken.name else p for p in files])
+    files = [broken if p.name == broken.name else p for p in second.reached(module)]
+    monkeypatch.setattr(second, "reached", lambda top: files)
     with pytest.raises(AssertionError):
         bench.run(f"test_{module.removeprefix('rdx_')}", module)
     assert re.search("unknown output of control|non-0/1 values|Logic\\('X'\\)", capfd.readouterr().out)

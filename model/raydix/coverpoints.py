@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from .rtl import ROOT, sources, top_modules, top_sources
+from .rtl import ROOT
 
 COVER = ROOT / "tb" / "cover"
 MANIFEST = "RAYDIX_COVERAGE"  # environment: scripts/coverage.py sets it to a file that names of results are appended to
@@ -54,14 +54,13 @@ def arguments() -> list[str]:
     return [*kinds, f"-I{COVER}"]
 
 
-def configuration(toplevel: str) -> str:
-    """Text of a .vlt file that leaves out the other modules: their own tests count their points."""
-    every = top_sources() if toplevel in top_modules() else sources()
-    others = [path for path in every if path.stem not in (toplevel, "rdx_pkg")]
+def configuration(toplevel: str, files: Iterable[Path]) -> str:
+    """Text of a .vlt file that leaves out the other modules of ``files``: their own tests count their points."""
+    others = [path for path in files if path.stem not in (toplevel, "rdx_pkg")]
     return "`verilator_config\n" + "".join(f'coverage_off -file "{path}"\n' for path in others)
 
 
-def _texts(test: str) -> bytes:
+def texts(test: str) -> bytes:
     """What a test's stimuli depend on: its text, that of the tests that it imports, and the bench's."""
     place, wanted, waiting = ROOT / "tb", set(), [test]
     while waiting:
@@ -75,7 +74,7 @@ def _texts(test: str) -> bytes:
 
 def result_file(target: Path, test: str, checks: list[str] | None, seed: int) -> Path:
     """Where the counts of a run are kept: its name depends on the build, the test's texts, the checks and the seed."""
-    facts = _texts(test) + repr((checks, seed)).encode()
+    facts = texts(test) + repr((checks, seed)).encode()
     return RESULTS / f"{target.name}-{hashlib.sha256(facts).hexdigest()[:12]}.dat.gz"
 
 

@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
@@ -81,6 +82,18 @@ def top_sources() -> list[Path]:
 def written() -> list[Path]:
     """The RTL files of both lists that are written by hand."""
     return [*sources(), *(RTL / f"{name}.sv" for name in top_modules())]
+
+
+def reached(top: str) -> list[Path]:
+    """The RTL files that the module ``top`` needs, itself among them, in the order of ``rtl/rdx_top.f``."""
+    files = {path.stem: path for path in (top_sources() if top in top_modules() else sources())}
+    texts = {path.name: path for path in RTL.glob("*.svh")} | files
+    found, new = {"rdx_pkg"}, {top, "rdx_pkg"}  # the bins of every module may name the package
+    while new:
+        found |= new
+        code = " ".join(re.sub(r"//.*", "", texts[name].read_text()) for name in new)
+        new = set(re.findall(r"\b\w+\.svh|\b\w+\b(?!\.svh)", code)) & texts.keys() - found
+    return [path for name, path in files.items() if name in found]
 
 
 def parameters(config: Config) -> dict[str, int]:

@@ -15,12 +15,12 @@ from collections import namedtuple
 from pathlib import Path
 
 import bench
-from raydix.rtl import ROOT, RTL, environment, sources
+from raydix import coverpoints
+from raydix.rtl import ROOT, RTL, environment, reached, written
 
 from . import schema, sites
 
 PLACE = ROOT / "build" / "mutants"
-HELPERS = ("bench.py", "streams.py", "streams_extra.py", "spirals.py", "latency.py")
 SEED = "1"
 LIMIT = 3  # times the computing time of the module as it is, and 2 s
 
@@ -39,7 +39,7 @@ class Broken(RuntimeError):
 
 def names():
     """Modules that have tests of their own."""
-    return [p.stem[4:] for p in sources() if Path(ROOT, "tb", f"test_{p.stem[4:]}.py").exists()]
+    return [p.stem[4:] for p in written() if Path(ROOT, "tb", f"test_{p.stem[4:]}.py").exists()]
 
 
 def source(name):
@@ -49,9 +49,9 @@ def source(name):
 
 def digest(name, *more):
     """What the outcome of a mutant depends on, and ``more``."""
-    files = [*sources(), *sorted(RTL.glob("*.svh")), *sorted((ROOT / "model" / "raydix").glob("*.py"))]
-    files += [ROOT / "tb" / helper for helper in HELPERS] + [ROOT / "tb" / f"test_{name}.py"]
-    return hashlib.sha256(b"".join([*(p.read_bytes() for p in files), *more])).hexdigest()[:20]
+    files = [*reached(f"rdx_{name}"), *sorted(RTL.glob("*.svh")), *sorted((ROOT / "model" / "raydix").glob("*.py"))]
+    facts = [*(p.read_bytes() for p in files), coverpoints.texts(f"test_{name}"), *more]
+    return hashlib.sha256(b"".join(facts)).hexdigest()[:20]
 
 
 def size(parameters):
@@ -87,7 +87,7 @@ def refused(top, parameters, path, text, mutants):
     with tempfile.TemporaryDirectory() as folder:
         changed = Path(folder, path.name)
         changed.write_text(text)
-        files = [str(changed if p == path else p) for p in sources()]
+        files = [str(changed if p == path else p) for p in reached(top)]
         command = ["verilator", "--lint-only", "--assert", f"-I{RTL}", "--top-module", top]
         command += [*(f"-G{n}={v}" for n, v in parameters.items()), *files]
         run = subprocess.run(command, env=environment(), capture_output=True, text=True)
@@ -108,7 +108,7 @@ def mutants(name, tests):
     for call in tests:
         key = json.dumps(call.parameters, sort_keys=True)
         if key not in found:
-            found[key] = sites.find(call.toplevel, call.parameters, path, sources(), RTL)
+            found[key] = sites.find(call.toplevel, call.parameters, path, reached(call.toplevel), RTL)
     union = {site for sites_ in found.values() for site in sites_}
     numbered = schema.number(
         text, sorted(union, key=lambda s: (s.start, -s.end, sites.OPERATORS.index(s.operator), s.new))

@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 
 import bench
+from raydix.rtl import RTL
 
 
 def main():
@@ -18,9 +19,9 @@ def main():
     order, call, changed = json.loads(Path(sys.argv[1]).read_text())
     module, toplevel, parameters, checks = call
     changed = Path(changed)
-    files = [changed if p.name == changed.name else p for p in bench.sources()]
-    files += [changed] if changed not in files else []
-    bench.sources = lambda: files
+    own = (RTL / changed.name).exists()
+    files = [changed if p.name == changed.name else p for p in bench.reached(toplevel)] if own else [changed]
+    bench.reached = lambda top: files
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(order, file)
         file.flush()
