@@ -12,21 +12,24 @@ from rich.console import Console
 from rich.table import Table
 
 from raydix import coverpoints
-from raydix.blocks import write_table
+from raydix.blocks import read_table, write_table
 from raydix.rtl import sources, top_modules
 
 ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "coverage.md"
 SEED = "1"  # the same stimuli each time, so that results can be kept
+KINDS = ("block", "toggle", "bin")
 HEADER = ("module", "runs", "blocks", "waived", "toggles", "waived", "toggled", "bins", "waived")
 
 
 def modules(wanted):
-    """Names of the modules that have a test, or of the one wanted. Raises ValueError where it is none."""
+    """Names of the modules that have a test, or of those wanted. Raises ValueError where one is none."""
     names = [path.stem.removeprefix("rdx_") for path in sources() if path.stem != "rdx_pkg"]
     names += [name.removeprefix("rdx_") for name in top_modules()]
-    if wanted and wanted.removeprefix("rdx_") not in names:
-        raise ValueError(f"found {wanted}; allowed: {', '.join(sorted(names))}")
-    return [wanted.removeprefix("rdx_")] if wanted else names
+    wanted = [name.removeprefix("rdx_") for name in wanted]
+    if unknown := [name for name in wanted if name not in names]:
+        raise ValueError(f"found {', '.join(unknown)}; allowed: {', '.join(sorted(names))}")
+    return wanted or names
 
 
 def run_tests(names, jobs):
@@ -61,26 +64,31 @@ def texts(name, runs, row):
     return [name, str(runs), *counts, f"{bins.hit}/{bins.total}", str(bins.waived)]
 
 
-def add(rows):
-    """The row of all modules."""
-    return {k: coverpoints.Row(*map(sum, zip(*(row[k] for row in rows), strict=True))) for k in rows[0]}
+def total(lines):
+    """The row of all modules: the sums of theirs."""
+
+    def row(line):
+        """The counts of a line."""
+        cells = [[int(part.replace(",", "")) for part in line[i].split("/")] for i in (2, 3, 4, 5, 7, 8)]
+        pairs = zip(cells[::2], cells[1::2], strict=True)
+        return [coverpoints.Row(*counts, *waived) for counts, waived in pairs]
+
+    sums = [coverpoints.Row(*map(sum, zip(*those, strict=True))) for those in zip(*map(row, lines), strict=True)]
+    return texts("all", sum(int(line[1]) for line in lines), dict(zip(KINDS, sums, strict=True)))
 
 
 def main():
     """Command line: 0 where every gap is closed or waived, 1 where not, 2 for a mistake of the user's."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("module", nargs="?", help="only this one")
+    parser.add_argument("module", nargs="*", help="only these")
     parser.add_argument("--jobs", type=int, default=1, help="builds and simulations at a time (default: 1)")
-    parser.add_argument("--write", action="store_true", help="renew the table in docs/coverage.md")
+    parser.add_argument("--write", action="store_true", help="renew the rows of these modules in docs/coverage.md")
     args = parser.parse_args()
     try:
         names = modules(args.module)
         rules = coverpoints.waivers(coverpoints.WAIVERS)
     except (ValueError, OSError) as error:
         print(f"coverage: {error}", file=sys.stderr)
-        return 2
-    if args.write and args.module:
-        print(f"coverage: found --write with {args.module}; the table is of all modules", file=sys.stderr)
         return 2
     files = run_tests(names, args.jobs)
     if files is None:
@@ -91,7 +99,7 @@ def main():
     table = coverpoints.rows(points, waived)
     lines = [texts(name, runs[name], row) for name, row in table.items()]
     if len(lines) > 1:
-        lines.append(texts("all", sum(runs.values()), add(list(table.values()))))
+        lines.append(total(lines))
     shown = Table()
     for title in HEADER:
         shown.add_column(title, justify="left" if title == "module" else "right")
@@ -99,7 +107,9 @@ def main():
         shown.add_row(*line)
     Console(width=120).print(shown)
     if args.write:
-        write_table(ROOT / "docs" / "coverage.md", "coverage", HEADER, lines)
+        kept = {name: line for name, line in read_table(PAGE, "coverage").items() if name in modules([])}
+        kept = sorted((kept | {line[0]: line for line in lines if line[0] != "all"}).values())
+        write_table(PAGE, "coverage", HEADER, [*kept, total(kept)])
     left = coverpoints.gaps(points, waived) + idle
     for line in left:
         print(line)

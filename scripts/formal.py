@@ -30,7 +30,7 @@ from rich.console import Console
 from rich.table import Table
 
 from formal_proofs import PROOFS
-from raydix.blocks import write_table
+from raydix.blocks import read_table, write_table
 from raydix.rtl import RTL, sources
 from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
@@ -325,13 +325,6 @@ def texts(result):
     return [result["name"], of, proof.says, method(proof), *counts, f"{result['seconds']:.1f}", result["verdict"]]
 
 
-def written():
-    """Rows of the table in the page, by name."""
-    block = PAGE.read_text().split("BEGIN generated: proofs -->")[1].split("<!-- END")[0]
-    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
-    return {row[0]: row for row in ([cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines)}
-
-
 def main(arguments=None):
     """Prove, print; returns the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -367,7 +360,7 @@ def main(arguments=None):
         print(f"formal: {line}", file=sys.stderr)
     if options.write and not wrong:
         cells = {row["name"]: [cell.replace("|", "\\|") for cell in texts(row)] for row in rows}
-        kept = {name: row for name, row in written().items() if name in PROOFS} | cells
+        kept = {name: row for name, row in read_table(PAGE, "proofs").items() if name in PROOFS} | cells
         write_table(PAGE, "proofs", COLUMNS, [kept[name] for name in PROOFS if name in kept])
     return 1 if wrong else 0
 

@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "tb"))
 
 from mutation import campaign as work  # noqa: E402  (needs tb/ on the path)
 from mutation import schema, sites  # noqa: E402
-from raydix.blocks import write_table  # noqa: E402
+from raydix.blocks import read_table, write_table  # noqa: E402
 
 EQUIVALENT = ROOT / "tb" / "mutants.toml"
 PAGE = ROOT / "docs" / "mutants.md"
@@ -101,13 +101,6 @@ def total(rows):
     return ["all", *map(str, sums), f"{killed / max(1, killed + sums[6]):.1%}"]
 
 
-def written():
-    """Rows of the table in the page, by module."""
-    block = PAGE.read_text().split("BEGIN generated: mutants -->")[1].split("<!-- END")[0]
-    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
-    return {row[0]: row for row in ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)}
-
-
 def describe(name, mutant):
     """Where a mutant is, what it changes, and how to run it alone."""
     return (
@@ -186,7 +179,7 @@ def main():
         print(f"mutants: not run: {' '.join(broken)}", file=sys.stderr)
         return 2
     if args.write:
-        kept = {name: cells for name, cells in written().items() if name in known_names}
+        kept = {name: cells for name, cells in read_table(PAGE, "mutants").items() if name in known_names}
         rows = sorted((kept | {cells[0]: cells for cells in rows}).values())
         write_table(PAGE, "mutants", HEADER, rows + [total(rows)])
     return 1 if bad else 0

@@ -26,7 +26,7 @@ import pytest
 from rich.console import Console
 from rich.table import Table
 
-from raydix.blocks import write_table
+from raydix.blocks import read_table, write_table
 
 ROOT = Path(__file__).resolve().parents[1]
 TB = ROOT / "tb"
@@ -93,13 +93,6 @@ def table(runs, left):
     return rows
 
 
-def written():
-    """Rows of the table in the page, by module."""
-    block = PAGE.read_text().split("BEGIN generated: second -->")[1].split("<!-- END")[0]
-    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
-    return {row[0]: row for row in ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)}
-
-
 def main(arguments=None):
     """The command line."""
     known = sorted(path.stem.removeprefix("test_") for path in TB.glob("test_*.py") if "bench.run(" in path.read_text())
@@ -130,7 +123,7 @@ def main(arguments=None):
     for run in bad:
         print(f"{run['module']} {run['parameters']}, SEED={run['seed']}: {', '.join(run['failed'])}")
     if options.write and content:
-        kept = {name: row for name, row in written().items() if name.removeprefix("rdx_") in known}
+        kept = {name: row for name, row in read_table(PAGE, "second").items() if name.removeprefix("rdx_") in known}
         write_table(PAGE, "second", HEADER, [row for _, row in sorted((kept | {row[0]: row for row in rows}).items())])
     return 0 if content else 1
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generated blocks in files that are otherwise written by hand."""
 
+import re
 import sys
 from collections.abc import Container, Sequence
 from pathlib import Path
@@ -29,6 +30,14 @@ def markdown_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     right = [bool(rows) and all(row[i][:1].isdigit() or not row[i] for row in rows) for i in range(len(header))]
     lines = [header, ["---:" if r else "---" for r in right], *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def read_table(path: Path, name: str) -> dict[str, list[str]]:
+    """Rows of the table in the block ``name`` of a Markdown file, by their first cells."""
+    block = path.read_text().split(f"<!-- BEGIN generated: {name} -->\n")[1].split("<!-- END")[0]
+    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
+    rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
+    return {row[0]: row for row in rows}
 
 
 def write_table(path: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
