@@ -24,7 +24,7 @@ HEADER = ("module", "runs", "blocks", "waived", "toggles", "waived", "toggled", 
 
 def modules(wanted):
     """Names of the modules that have a test, or of those wanted. Raises ValueError where one is none."""
-    names = [path.stem.removeprefix("rdx_") for path in sources() if path.stem != "rdx_pkg"]
+    names = [path.stem.removeprefix("rdx_") for path in sources() if not path.stem.endswith("pkg")]
     names += [name.removeprefix("rdx_") for name in top_modules()]
     wanted = [name.removeprefix("rdx_") for name in wanted]
     if unknown := [name for name in wanted if name not in names]:
@@ -37,7 +37,7 @@ def run_tests(names, jobs):
     with tempfile.TemporaryDirectory() as folder:
         manifest = Path(folder, "results")
         manifest.touch()
-        files = [f"tb/test_{name}.py" for name in names]
+        files = sorted({f"tb/test_{coverpoints.owner(name)}.py" for name in names})
         environment = {**os.environ, coverpoints.MANIFEST: str(manifest), "SEED": SEED, "WAVES": ""}
         command = [sys.executable, "-m", "pytest", "-q", "-n", str(jobs), "--dist", "worksteal", *files]
         if subprocess.run(["nice", "-n", "10", *command], cwd=ROOT, env=environment).returncode:
@@ -49,7 +49,7 @@ def collect(names, files):
     """Points of each module by its own results: (points, number of results)."""
     points, runs = {}, {}
     for name in names:
-        mine = [coverpoints.RESULTS / file for file in files if file.startswith(f"rdx_{name}-")]
+        mine = [coverpoints.RESULTS / file for file in files if file.startswith(f"rdx_{coverpoints.owner(name)}-")]
         runs[name] = len(mine)
         points.update({p: n for p, n in coverpoints.merge(mine).items() if p.module == name})
     return points, runs

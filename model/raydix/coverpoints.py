@@ -6,6 +6,7 @@ Points  block   a block of statements or a branch of the module's source, once p
         bin     a cover property of ``tb/cover/rdx_<module>_cover.sv``, once per instance of its generate loops
 """
 
+import ast
 import gzip
 import hashlib
 import os
@@ -54,22 +55,38 @@ def arguments() -> list[str]:
     return [*kinds, f"-I{COVER}"]
 
 
+def owner(module: str) -> str:
+    """The module whose test is that of ``module``: itself, or the one whose name its own begins with (without rdx_)."""
+    while not (ROOT / "tb" / f"test_{module}.py").exists() and "_" in module:
+        module = module.rpartition("_")[0]
+    return module
+
+
 def configuration(toplevel: str, files: Iterable[Path]) -> str:
     """Text of a .vlt file that leaves out the other modules of ``files``: their own tests count their points."""
-    others = [path for path in files if path.stem not in (toplevel, "rdx_pkg")]
+    own = {path.stem for path in files if f"rdx_{owner(path.stem.removeprefix('rdx_'))}" == toplevel}
+    others = [path for path in files if path.stem not in own | {"rdx_pkg"}]
     return "`verilator_config\n" + "".join(f'coverage_off -file "{path}"\n' for path in others)
 
 
+def _imports(file: Path) -> set[str]:
+    """Names that a Python file imports, and all parts of the names of their modules."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names.update(alias.name for alias in node.names)
+            names.update((getattr(node, "module", "") or "").split("."))
+    return names
+
+
 def texts(test: str) -> bytes:
-    """What a test's stimuli depend on: its text, that of the tests that it imports, and the bench's."""
-    place, wanted, waiting = ROOT / "tb", set(), [test]
-    while waiting:
-        name = waiting.pop()
-        if name not in wanted and (place / f"{name}.py").exists():
-            wanted.add(name)
-            waiting += re.findall(r"^(?:import|from) (test_\w+)", (place / f"{name}.py").read_text(), re.M)
-    files = [p for p in sorted(place.glob("*.py")) if p.stem in wanted or not p.stem.startswith("test_")]
-    return b"".join(p.read_bytes() for p in files)
+    """What a test depends on: its own text and those of the files of ``tb`` and of the model that it imports."""
+    files = {path.stem: path for folder in (ROOT / "model" / "raydix", ROOT / "tb") for path in folder.glob("*.py")}
+    found, new = set(), {test} & files.keys()
+    while new:
+        found |= new
+        new = set().union(*(_imports(files[name]) for name in new)) & files.keys() - found
+    return b"".join(files[name].read_bytes() for name in sorted(found))
 
 
 def result_file(target: Path, test: str, checks: list[str] | None, seed: int) -> Path:

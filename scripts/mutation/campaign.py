@@ -38,8 +38,8 @@ class Broken(RuntimeError):
 
 
 def names():
-    """Modules that have tests of their own."""
-    return [p.stem[4:] for p in written() if Path(ROOT, "tb", f"test_{p.stem[4:]}.py").exists()]
+    """Modules that have a test, their own or that of the module they are a part of."""
+    return [p.stem[4:] for p in written() if not p.stem.endswith("pkg")]
 
 
 def source(name):
@@ -49,8 +49,9 @@ def source(name):
 
 def digest(name, *more):
     """What the outcome of a mutant depends on, and ``more``."""
-    files = [*reached(f"rdx_{name}"), *sorted(RTL.glob("*.svh")), *sorted((ROOT / "model" / "raydix").glob("*.py"))]
-    facts = [*(p.read_bytes() for p in files), coverpoints.texts(f"test_{name}"), *more]
+    owner = coverpoints.owner(name)
+    files = [*reached(f"rdx_{owner}"), *sorted(RTL.glob("*.svh"))]
+    facts = [*(p.read_bytes() for p in files), coverpoints.texts(f"test_{owner}"), *more]
     return hashlib.sha256(b"".join(facts)).hexdigest()[:20]
 
 
@@ -61,20 +62,21 @@ def size(parameters):
 
 
 def calls(name):
-    """The simulations of a module's test file, the cheapest first."""
+    """The simulations of a module's test, the cheapest first."""
+    owner = coverpoints.owner(name)
     with tempfile.TemporaryDirectory() as folder:
         noted = Path(folder, "calls")
         noted.touch()
         paths = os.pathsep.join([str(ROOT / "tb"), str(ROOT / "scripts"), os.environ.get("PYTHONPATH", "")])
         command = [sys.executable, "-m", "pytest", "-q", "-p", "mutation.record", "-p", "no:cacheprovider", "-n", "0"]
         run = subprocess.run(
-            [*command, str(ROOT / "tb" / f"test_{name}.py")],
+            [*command, str(ROOT / "tb" / f"test_{owner}.py")],
             cwd=ROOT, env={**os.environ, "RDX_CALLS": str(noted), "PYTHONPATH": paths}, capture_output=True, text=True,
         )  # fmt: skip
         if run.returncode:
-            raise Broken(f"tb/test_{name}.py fails as it is:\n" + "\n".join(run.stdout.splitlines()[-15:]))
+            raise Broken(f"tb/test_{owner}.py fails as it is:\n" + "\n".join(run.stdout.splitlines()[-15:]))
         found = [Call(*json.loads(line)) for line in noted.read_text().splitlines()]
-    return sorted((c for c in found if c.toplevel == f"rdx_{name}"), key=lambda c: size(c.parameters))
+    return sorted((c for c in found if c.toplevel == f"rdx_{owner}"), key=lambda c: size(c.parameters))
 
 
 def label(call):
@@ -104,11 +106,13 @@ def mutants(name, tests):
     """All mutants of a module, and for each set of parameters the numbers of those that it can run."""
     path = source(name)
     text = path.read_text()
+    own = set(re.findall(r"^ +parameter .*?(\w+) =", text, re.M))
     found = {}
     for call in tests:
         key = json.dumps(call.parameters, sort_keys=True)
         if key not in found:
-            found[key] = sites.find(call.toplevel, call.parameters, path, reached(call.toplevel), RTL)
+            parameters = {name: value for name, value in call.parameters.items() if name in own}
+            found[key] = sites.find(path.stem, parameters, path, reached(path.stem), RTL)
     union = {site for sites_ in found.values() for site in sites_}
     numbered = schema.number(
         text, sorted(union, key=lambda s: (s.start, -s.end, sites.OPERATORS.index(s.operator), s.new))
@@ -143,7 +147,7 @@ def prepare(name, kept=False):
     def compute():
         tests = calls(name)
         if not tests:
-            raise Broken(f"tb/test_{name}.py does not simulate rdx_{name}")
+            raise Broken(f"tb/test_{coverpoints.owner(name)}.py does not simulate rdx_{coverpoints.owner(name)}")
         everything, runs = mutants(name, tests)
         return [tests, everything, {key: sorted(numbers) for key, numbers in runs.items()}]
 
