@@ -27,6 +27,7 @@ async def merge(dut, random, data, idle, stall, count=400):
     await bench.start(dut)
     offers, left, order, held = [None] * streams, [count] * streams, [], None
     others = [0] * streams  # transfers of other streams since the offer
+    turn = 0  # the stream that goes first if it offers: the next one after a transfer, also where a pause follows
     while any(left) or any(offer is not None for offer in offers):
         for i in range(streams):
             if offers[i] is None and left[i] and random.random() >= idle[i % 2]:
@@ -40,9 +41,13 @@ async def merge(dut, random, data, idle, stall, count=400):
         if held is not None:
             assert value == held, f"{held} became {value} before ready"
         held = value if valid and not ready else None
+        if held is not None:
+            turn = next(j for j in sorted(range(streams), key=lambda j: (j - turn) % streams) if offers[j] is not None)
         for i in moved:
             assert value == offers[i], f"stream {i}: {offers[i]} became {value}"
             assert others[i] < streams, f"stream {i} waited for {others[i]} others"
+            assert i == min((j for j in range(streams) if offers[j] is not None), key=lambda j: (j - turn) % streams)
+            turn = (i + 1) % streams
             others = [n + (j != i) for j, n in enumerate(others)]
             order.append(i)
             offers[i] = None
