@@ -61,6 +61,7 @@ async def equals_model(dut):
         return dict(cells_o=cells, outside_o=outside)
 
     await given(dut, items, first, n1 * stages, n1 * stages + wait, structs)
+    await bench.start(dut)  # the waiting lines begin anew
     chosen = n1 * stages + wait
     late = chosen + latency.pick(n1, degree)
     await given_parts(dut, items, [answer[2] for answer in answers], late, chosen, structs)

@@ -149,10 +149,12 @@ async def reset_orders_the_banks(dut):
     dut.swap_i.value = 0
     await access(1, 0x5678)
     assert await access(0) == 0x5678
-    dut.rst_ni.value = 0
+    dut.rst_ni.value, dut.host_req_i.value, dut.host_we_i.value = 0, 1, 0
     await FallingEdge(dut.clk_i)
     assert dut.host_ack_o.value == 0
-    dut.rst_ni.value = 1
+    dut.rst_ni.value, dut.host_req_i.value = 1, 0
+    await FallingEdge(dut.clk_i)
+    assert dut.host_ack_o.value == 0
     assert await access(0) == 0x1234
 
 

@@ -44,7 +44,7 @@ async def walk(dut, random, rows, limits, idle=0.0, stall=0.0, end=None):
         held = (True, int(dut.ray_x_o.value), int(dut.ray_limit_o.value)) if valid and not ready else None
         assert not held or not (start or step), "the lanes move below a ray that is not taken"
         waits = begun >= 0 and len(left) < len(pixels) and pixels[len(left)][0] <= begun
-        assert not (waits and dut.idle_o.value == 1), "idle with pixels under way"
+        assert not ((waits or start) and dut.idle_o.value == 1), "idle with pixels under way"
         if valid or hidden:
             assert len(left) < len(pixels), "more pixels than there are"
             number, x = pixels[len(left)]
