@@ -223,7 +223,7 @@ async def first_slot_wins(dut):
 
 CASES = [
     dict(D=4, Rules=3, Vecsum=0, Slots=64), dict(D=2, Rules=1, Clip=0, Vecsum=2, Slots=5),
-    dict(D=0, Rules=2, Vecsum=1, Slots=1), dict(D=4, Rules=3, Vecsum=2, Slots=3),
+    dict(D=0, Rules=2, Vecsum=1, Slots=1), dict(D=4, Rules=3, Clip=0, Vecsum=2, Slots=3),
 ]  # fmt: skip
 
 

@@ -49,15 +49,16 @@ async def equal(dut, idle):
     for clock in range(len(clocks) + LATENCY):
         item = clocks[clock] if clock < len(clocks) else None
         dut.valid_i.value = item is not None
-        first, last, opacity, shade = item or (*(random.getrandbits(1) for _ in range(2)), unit(random), [ONE] * 3)
+        first, last, opacity, shade = item or (False, False, unit(random), [ONE] * 3)
+        if not item or most == 1:  # a single layer is both, whatever the ports say
+            first, last = random.getrandbits(1), random.getrandbits(1)
         dut.first_i.value, dut.last_i.value, dut.opacity_i.value = int(first), int(last), opacity
         color.write(shade)
         await ReadOnly()
-        if clock >= LATENCY:
-            expected = done[clock - LATENCY]
-            assert bool(dut.valid_o.value) == (expected is not None), f"clock {clock}"
-            if expected and (lines := linear.differences(linear.words(expected), linear.read())):
-                raise bench.mismatch(clock, {"background": background}, lines)
+        expected = done[clock - LATENCY] if clock >= LATENCY else None
+        assert bool(dut.valid_o.value) == (expected is not None), f"clock {clock}"
+        if expected and (lines := linear.differences(linear.words(expected), linear.read())):
+            raise bench.mismatch(clock, {"background": background}, lines)
         await FallingEdge(dut.clk_i)
 
 
@@ -71,6 +72,23 @@ async def one_a_clock(dut):
 async def with_gaps(dut):
     """Clocks without a layer, between pixels and within them, change nothing, whatever stands at the other ports."""
     await equal(dut, 0.5)
+
+
+@cocotb.test
+async def reset_forgets(dut):
+    """Of the layers under way at a reset none is told."""
+    dut.valid_i.value = 0
+    await bench.start(dut)
+    dut.valid_i.value = dut.first_i.value = dut.last_i.value = 1
+    for _ in range(LATENCY + 3):
+        await FallingEdge(dut.clk_i)
+    assert dut.valid_o.value == 1
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value, dut.valid_i.value = 1, 0
+    for clock in range(LATENCY + 1):
+        assert dut.valid_o.value == 0, f"{clock} clocks after the reset"
+        await FallingEdge(dut.clk_i)
 
 
 @pytest.mark.parametrize("parameters", [dict(Layers=1), dict(Layers=4), dict(Layers=8)], ids=bench.label)
