@@ -74,6 +74,9 @@ async def render(dut, random, frame, idle, stall):
         sending = frame.rows[0][0] if frame.rows else frame.height - 1
         dut.row_i.value = sending & 3
         await Timer(1, unit="ns")
+        # when a line's first layer comes all of the line before it has been read
+        if frame.now and frame.rows and sending <= y - 2 + bench.parameter(dut, "Lines"):
+            assert dut.free_o.value, f"row {sending} cannot be sent, rows to {y - 2} have been read"
         free = bool(dut.free_o.value) and frame.now > 0 and bool(frame.rows) and random.random() >= idle
         add = end = False
         pixels = range(0)

@@ -79,7 +79,7 @@ async def reset_empties(dut):
     assert dut.hit_valid_o.value == 0
     dut.rst_ni.value = 1
     rays = [ring.random_ray(random, shape, number) for number in range(40)]
-    await ring.trace_all(dut, shape, rays, random, 0.0, 0.2)
+    await ring.trace_all(dut, shape, rays, random, 0.0, 0.2, new=True)
 
 
 VECTOR = dict(W=VECTOR_WIDTH, D=1, U=1, Rings=2)

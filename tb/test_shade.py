@@ -114,6 +114,24 @@ async def equals_model(dut):
 
 
 @cocotb.test
+async def reset_forgets(dut):
+    """Of the layers under way at a reset none becomes a pixel."""
+    latency = LATENCY[bench.parameter(dut, "D")]
+    dut.we_i.value = dut.layer_valid_i.value = 0
+    await bench.start(dut)
+    dut.layer_i.value, dut.layer_valid_i.value = LAYER.pack(LAYER.unpack(0) | {"first": 1, "last": 1}), 1
+    for _ in range(latency + 3):
+        await FallingEdge(dut.clk_i)
+    assert dut.pixel_valid_o.value == 1
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value, dut.layer_valid_i.value = 1, 0
+    for clock in range(latency + 2):
+        assert dut.pixel_valid_o.value == 0, f"{clock} clocks after the reset"
+        await FallingEdge(dut.clk_i)
+
+
+@cocotb.test
 async def equals_picture(dut):
     """Layers of two scenes, one after the other, by a scene each bank: the pixels are those of the golden picture."""
     random = bench.rng()
@@ -147,7 +165,7 @@ SETS = [dict(D=2, Surfaces=1, Layers=1), dict(D=2, Surfaces=3, Layers=4), dict(D
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_shading(parameters):
     """Quadrics with one layer and with several, quartics."""
-    bench.run(__name__, "rdx_shade", parameters, ["equals_model"])
+    bench.run(__name__, "rdx_shade", parameters, ["equals_model", "reset_forgets"])
 
 
 def test_picture():

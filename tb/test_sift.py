@@ -180,6 +180,7 @@ async def reset_takes_rays_away(dut):
         assert clocks < queue or (dut.ray_valid_o.value == 1 and dut.ray_ready_o.value == 0)
         dut.rst_ni.value = 0
         await FallingEdge(dut.clk_i)
+        assert dut.ray_ready_o.value == 0, "a ray would be taken in the reset"
         dut.rst_ni.value = 1
         for _ in range(20):
             assert dut.ray_valid_o.value == 0 and dut.rootless_o.value == 0
