@@ -207,8 +207,8 @@ def paths(folder, stem):
     """See that no valid output depends on a ready input."""
     start = time.monotonic()
     found = support((folder / f"{stem}.aag").read_text())
-    valid = {name: inputs for name, inputs in found.items() if re.match(r"(.*_)?valid_o\b", name)}
-    ready = {name for inputs in found.values() for name in inputs if re.match(r"(.*_)?ready_i\b", name)}
+    valid = {name: inputs for name, inputs in found.items() if re.match(r"(.*_)?t?valid_o\b", name)}
+    ready = {name for inputs in found.values() for name in inputs if re.match(r"(.*_)?t?ready_i\b", name)}
     if not valid:
         raise SynthError("no output is named valid_o")
     bad = [f"{name} depends on {i}" for name, inputs in valid.items() for i in sorted(inputs & ready)]

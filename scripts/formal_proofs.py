@@ -198,6 +198,16 @@ def through(module):
 
 WALK = ("rdx_raster", "wire step = ray_valid_o && ray_ready_i;", "wire step = ray_valid_o;")
 
+# the frame's last column is an input that does not change within a frame: a register that keeps any value
+HELD_COLUMN = (
+    ("rdx_pixels", "wire pixel_t last_beat = last_x_i >> Shift;",
+     "pixel_t held_q;\n  always_ff @(posedge clk_i) held_q <= held_q;\n  wire pixel_t last_beat = held_q >> Shift;"),
+    ("rdx_pixels", "+ pixel_t'(p) <= last_x_i}};", "+ pixel_t'(p) <= held_q}};"),
+)  # fmt: skip
+AT_ONCE = ("rdx_pixels", "assign m_axis_tvalid_o = beat_valid;", "assign m_axis_tvalid_o = beat_valid && beat_ready;")
+MOVES = ("rdx_walk", "wire en = !valid_q || hidden_q || ray_ready_i;", "wire en = !valid_q || hidden_q || next_i;")
+WAITS = ("rdx_walk", "assign ray_valid_o = valid_q && !hidden_q;", "assign ray_valid_o = valid_q && ray_ready_i;")
+
 PROOFS = {
     "halve-d4": halve(48, 4),
     "halve-d2": halve(48, 2),
@@ -275,6 +285,10 @@ PROOFS = {
     "stream-vector": stream(
         "rdx_vector", VECTOR, QUEUE, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,), depth=50
     ),
+    "stream-scan": stream("rdx_scan", {"D": 2, "Vector": 1}, MOVES),
+    "paths-scan": paths("rdx_scan", {"D": 2, "Vector": 1}, WAITS),
+    "stream-pixels": stream("rdx_pixels", {"Pixels": 2, "Depth": 16}, QUEUE, replace=HELD_COLUMN),
+    "paths-pixels": paths("rdx_pixels", {"Pixels": 2, "Depth": 16}, AT_ONCE),
     "stream-core": stream("rdx_core", CORE, QUEUE, stand_ins=STAND_INS, replace=(SHORT,), depth=70),
     "ring": ring({"U": 1}, 0),
     "ring-time": ring({"U": 1}, 1),

@@ -31,21 +31,28 @@ def pixels(random, most, count):
 
 
 async def equal(dut, idle):
+    """Send pixels before each of several backgrounds."""
+    random = bench.rng(idle)
+    dut.valid_i.value = 0
+    await bench.start(dut)
+    some = [[unit(random) for _ in range(3)] for _ in range(2)]
+    for background in ([ONE - 1] * 3, [0] * 3, [ONE] * 3, [0, ONE, ONE - 1], *some):
+        bench.Port(dut, "background_i").write(background)
+        await before(dut, background, random, idle)
+
+
+async def before(dut, background, random, idle):
     """Send pixels; valid_o comes nine clocks after a pixel's last layer, never else, with the model's colour."""
-    random, most = bench.rng(idle), bench.parameter(dut, "Layers")
-    background = [unit(random) for _ in range(3)]
-    bench.Port(dut, "background_i").write(background)
+    most = bench.parameter(dut, "Layers")
     color, linear = bench.Port(dut, "color_i"), bench.Port(dut, "linear_o")
     clocks, done = [], []
-    for layers in pixels(random, most, 800):
+    for layers in pixels(random, most, 200):
         for number, layer in enumerate(layers):
             while random.random() < idle:
                 clocks.append(None)
                 done.append(None)
             clocks.append((number == 0, number == len(layers) - 1, *layer))
             done.append(model(layers, background) if number == len(layers) - 1 else None)
-    dut.valid_i.value = 0
-    await bench.start(dut)
     for clock in range(len(clocks) + LATENCY):
         item = clocks[clock] if clock < len(clocks) else None
         dut.valid_i.value = item is not None

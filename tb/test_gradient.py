@@ -4,6 +4,7 @@
 import cocotb
 import numpy as np
 import pytest
+from cocotb.triggers import FallingEdge
 
 import bench
 from materials import MATERIAL_T, chosen, coordinate, load, random_materials, words_of
@@ -27,7 +28,7 @@ def model(material, point, degree):
 
 @cocotb.test
 async def equals_model(dut):
-    """A point a clock, any surface of any bank."""
+    """A point a clock, any surface of any bank; also after a reset."""
     random, degree = bench.rng(), bench.parameter(dut, "D")
     materials = random_materials(random, bench.parameter(dut, "Surfaces"))
     for words_ in materials.values():
@@ -35,16 +36,22 @@ async def equals_model(dut):
             words_[14:23] = [0] * 9  # Q3 is 0, so that the product of the others counts
     await bench.start(dut)
     await load(dut, materials)
-    items = ({"material_i": chosen(random, materials), "point_i": [coordinate(random) for _ in range(3)]}
-             for _ in range(2500))  # fmt: skip
+
+    def items(count):
+        for _ in range(count):
+            yield {"material_i": chosen(random, materials), "point_i": [coordinate(random) for _ in range(3)]}
 
     def expect(item):
         return {"gradient_o": model(words_of(materials, item["material_i"]), item["point_i"], degree)}
 
-    await bench.pipeline(dut, items, expect, LATENCY[degree], {"material_i": MATERIAL_T})
+    await bench.pipeline(dut, items(2500), expect, LATENCY[degree], {"material_i": MATERIAL_T})
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 1
+    await bench.pipeline(dut, items(100), expect, LATENCY[degree], {"material_i": MATERIAL_T})
 
 
-@pytest.mark.parametrize("parameters", [dict(D=2, Surfaces=1), dict(D=4, Surfaces=7)], ids=bench.label)
+@pytest.mark.parametrize("parameters", [dict(D=2, Surfaces=1), dict(D=4, Surfaces=64)], ids=bench.label)
 def test_gradient(parameters):
     """Quadrics alone, and quartics too."""
     bench.run(__name__, "rdx_gradient", parameters)

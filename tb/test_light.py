@@ -29,18 +29,20 @@ async def equals_model(dut):
     """A layer a clock, any surface of any bank; also a gradient of 0 and one along the light."""
     random = bench.rng()
     materials = random_materials(random, bench.parameter(dut, "Surfaces"))
-    largest = bench.high(18)
-    for (_, surface), material in materials.items():
+    largest, at = bench.high(18), MATERIAL_INDEX["color"]
+    for (bank, surface), material in materials.items():
         if surface % 2:
             material[:9] = [largest, 0, 0, 0, largest, 0, 0, 0, largest]
+        if surface == bench.parameter(dut, "Surfaces") - 1:
+            material[at : at + 3] = [ONE - bank] * 3
     await bench.start(dut)
     await load(dut, materials)
-    for ambient in (0, ONE, unit(random), random.randint(0, ONE)):
+    for ambient in (0, ONE, 0, ONE - 1, 1, ONE, unit(random), random.randint(0, ONE)):
         dut.ambient_i.value = ambient
         special = ([0, 0, 0], [0, 0, largest], [0, 0, -1 - largest], [0, 0, 1], [largest] * 3, [-1 - largest] * 3)
         items = ({"material_i": chosen(random, materials), "enters_i": random.getrandbits(1),
                   "gradient_i": random.choice((*special, *([normal(random) for _ in range(3)] for _ in range(9))))}
-                 for _ in range(700))  # fmt: skip
+                 for _ in range(400))  # fmt: skip
 
         def expect(item, ambient=ambient):
             material = words_of(materials, item["material_i"])
@@ -51,7 +53,7 @@ async def equals_model(dut):
 
 def test_light():
     """Random and special materials and gradients."""
-    bench.run(__name__, "rdx_light", dict(Surfaces=6))
+    bench.run(__name__, "rdx_light", dict(Surfaces=64))
 
 
 def test_cosine_error():

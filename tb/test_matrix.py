@@ -49,7 +49,7 @@ async def equals_integers(dut):
     assert checked == len(items)
 
 
-SETS = [dict(Surfaces=1, Index=14, Symmetric=1), dict(Surfaces=6, Index=0, Symmetric=0)]
+SETS = [dict(Surfaces=1, Index=14, Symmetric=1), dict(Surfaces=64, Index=0, Symmetric=0)]
 
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)

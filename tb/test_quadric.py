@@ -16,7 +16,7 @@ from raydix.kernel import words, zeros
 
 CONSTANTS, LATENCY = 2, 10
 AT = MATERIAL_INDEX["q1_matrix"]
-PARAMETERS = dict(Surfaces=3, Matrix=AT, Linear=AT + 6, Constant=AT + 9)
+PARAMETERS = dict(Surfaces=64, Matrix=AT, Linear=AT + 6, Constant=AT + 9)
 
 
 def model(material, point):

@@ -15,12 +15,13 @@ BOUND = 2.0**-16
 
 
 def corners():
-    """Ends of every interval of the table, before and after the even shift, and 0."""
+    """Ends of every interval of the table, before and after the even shift; 0 first and last."""
     yield 0
     for shift in (0, 2):
         for index in range(1 << (INDEX_BITS - 2), (1 << INDEX_BITS) + 1):
             edge = index << (SQUARE_WIDTH - INDEX_BITS - shift)
             yield from (s for s in (edge - 1, edge, edge + 1) if LEAST <= s <= MOST)
+    yield 0
 
 
 def stimuli(random, count):

@@ -46,8 +46,8 @@ def shaded(layers, materials, ambient, background, degree):
 
 
 async def write_materials(dut, materials):
-    """By the ports of rdx_shade: (bank, surface) -> words."""
-    for (bank, surface), constants in materials.items():
+    """By the ports of rdx_shade: (bank, surface) -> words; the last one first."""
+    for (bank, surface), constants in reversed(materials.items()):
         dut.we_i.value, dut.bank_i.value, dut.surface_i.value = 1, bank, surface
         for constant, data in enumerate(constants):
             dut.constant_i.value, dut.data_i.value = constant, int(data) & 0xFFFFFFFF
@@ -96,6 +96,7 @@ async def equals_model(dut):
     await bench.start(dut)
     await write_materials(dut, materials)
     for bank, idle in ((0, 0.0), (1, 0.0), (0, 0.4)):
+        await bench.noise(dut, "ambient_i", "background_i")
         ambient, background = unit(random), [unit(random) for _ in range(3)]
         dut.ambient_i.value = ambient
         bench.Port(dut, "background_i").write(background)

@@ -15,9 +15,9 @@ BOUND = 0.61  # codes
 
 @cocotb.test
 async def equals_model(dut):
-    """The code is the model's, three clocks later, for every intensity."""
+    """The code is the model's, three clocks later, for every intensity, and 0 again."""
     await bench.start(dut)
-    items = ({"linear_i": value} for value in range((1 << UNIT_FRAC) + 1))
+    items = ({"linear_i": value} for value in (*range((1 << UNIT_FRAC) + 1), 0))
     await bench.pipeline(dut, items, lambda item: {"code_o": int(srgb(item["linear_i"]))}, LATENCY)
 
 
