@@ -34,7 +34,7 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from raydix.blocks import write_table
+from raydix.blocks import read_table, write_table
 from raydix.rtl import RTL, sources
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -472,7 +472,7 @@ def main(arguments=None):
         if options.write:
             header = [column.replace("\n", " ") for column in COLUMNS[:-1]]
             cells = {row.name: texts(row)[:-1] for row in rows}
-            kept = {name: row for name, row in written().items() if name in POINTS} | cells
+            kept = {name: row for name, row in read_table(PAGE, "synthesis").items() if name in POINTS} | cells
             write_table(PAGE, "synthesis", header, [kept[name] for name in POINTS if name in kept])
     except (SynthError, OSError, ValueError) as error:
         print(f"synth: {error}", file=sys.stderr)
@@ -481,13 +481,6 @@ def main(arguments=None):
         print(f"synth: interrupted; what was finished is kept in {shown(BUILD)}", file=sys.stderr)
         return 130
     return 0
-
-
-def written():
-    """Rows of the table in the page, by name."""
-    block = PAGE.read_text().split("BEGIN generated: synthesis -->")[1].split("<!-- END")[0]
-    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
-    return {row[0]: row for row in ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)}
 
 
 def parse(arguments):

@@ -134,7 +134,7 @@ def test_table_is_written_with_clocks_only(synth, capsys):
 def test_rows_of_the_page_are_read_back():
     """The table in the page has rows of the script's design points, each with all columns but the time."""
     synth = load()
-    rows = synth.written()
+    rows = synth.read_table(synth.PAGE, "synthesis")
     assert rows and set(rows) <= set(synth.POINTS)
     assert {len(row) for row in rows.values()} == {len(synth.COLUMNS) - 1}
 
