@@ -9,7 +9,7 @@ from cocotb.triggers import FallingEdge, ReadOnly
 
 import bench
 from entries import entry, meant, place
-from raydix.formats import PIXEL_WIDTH, STEPS_WIDTH
+from raydix.formats import DEPTH_WIDTH, PIXEL_WIDTH, STEPS_WIDTH
 
 WRITTEN = 4  # clocks from a hit's transfer to its writing
 
@@ -155,6 +155,32 @@ async def keeps_lines(dut, idle, spots):
         assert lines.walls > 100, f"{lines.walls} limits"
     if spots == 1:
         assert lines.lost > 50, f"{lines.lost} without room"
+
+
+@cocotb.test
+async def each_pixel_has_its_own_limit(dut):
+    """Opaque hits at all pixels of a line, or many: each pixel has its own limit, and none once it was read."""
+    lines = Lines(dut, bench.rng())
+    await bench.start(dut)
+    await lines.sweep()
+    lines.opaque = (1 << 64) - 1
+    dut.opaque_i.value = lines.opaque
+    xs = sorted({*range(min(48, lines.width)), *range(lines.width - 48, lines.width)} & set(range(lines.width)))
+    for flip in (bench.high(DEPTH_WIDTH), 0):
+        for row in range(lines.lines):
+            for x in xs:
+                assert await lines.clock(lines.record(row, [x]) | {"hit": 1, "depth": x ^ flip})
+            for _ in range(WRITTEN):
+                await lines.clock()
+            for x in xs:
+                await lines.clock(look=(row, x))
+            for group in sorted({x // lines.pixels for x in xs}):
+                await lines.clock(read=(row, group))
+            await lines.clock()
+            await lines.clock(look=(row, xs[0]))
+            for x in xs:
+                await lines.clock(look=(row, x))
+            await lines.clock()
 
 
 @cocotb.test

@@ -138,10 +138,10 @@ async def reset_begins_a_frame(dut):
 
 @cocotb.test
 async def largest_frames(dut):
-    """The widest frame there can be; with one pixel in a beat the highest, too."""
+    """The widest frame there can be; with one pixel in a beat the highest, too; then the smallest."""
     most = 1 << PIXEL_WIDTH
     height = most if bench.parameter(dut, "Pixels") == 1 else 3
-    await frames(dut, bench.rng(), [(most, 1), (1, height)], 0.0, 0.0, 0.5, latency=3)
+    await frames(dut, bench.rng(), [(most, 1), (1, height), (1, 1)], 0.0, 0.0, 0.5, latency=3)
 
 
 SETS = [dict(Pixels=1, Depth=16), dict(Pixels=2, Depth=8), dict(Pixels=4, Depth=32)]

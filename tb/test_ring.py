@@ -18,6 +18,7 @@ from raydix.step import new_work, step
 from raydix.vecsum import new_lanes
 
 CERTIFIED, PAPER_RULE, BOTH = 1, 2, 3
+ALL_MODES = 3  # rdx_pkg::ModesDefault
 
 
 class Shape:
@@ -251,13 +252,18 @@ RATES = (0.0, 0.3, 0.8)
 PORTS = dict(prefix="ray_", data=("ray_i", "segment_i"))
 
 
+async def still(dut):
+    """The ports that stand still, noise there before: modes as usual, constants of a surface to come."""
+    await bench.noise(dut, "modes_i", *["form_i"] * (bench.parameter(dut, "D") == 1))
+    dut.modes_i.value = ALL_MODES
+
+
 async def start(dut, random):
     """Clock and reset, with both ports at rest; the shape."""
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    if bench.parameter(dut, "D") == 1:
-        await bench.noise(dut, "form_i")
+    await still(dut)
     return Shape(dut, random)
 
 
@@ -308,7 +314,7 @@ async def trace_all(dut, shape, rays, random, idle, stall, new=False):
 
     new   begin in the clock after a reset; steps_o tells of items of before for a turn, so it is not looked at
     """
-    for _ in range(0 if new else shape.turn + 2):
+    for _ in range(0 if new else 2 * shape.turn):  # the phase stays
         await FallingEdge(dut.clk_i)
     count = sum(len(model(shape, *ray)) for ray in rays)
     sink = hit_sink(dut, random, stall)

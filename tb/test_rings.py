@@ -28,8 +28,7 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    if bench.parameter(dut, "D") == 1:
-        await bench.noise(dut, "form_i")
+    await ring.still(dut)
     return Rings(dut, random)
 
 
@@ -39,7 +38,8 @@ async def equals_model(dut, idle, stall):
     """The records of each ray are the model's, in order of t, `last` once: none lost, none twice."""
     random = bench.rng(f"{idle} {stall}")
     shape = await start(dut, random)
-    rays = [ring.random_ray(random, shape, number) for number in range(40 * shape.rings)]
+    each = 40 if idle else max(40, 2 * shape.slots)  # so many that each ring has its share
+    rays = [ring.random_ray(random, shape, number) for number in range(each * shape.rings)]
     await ring.trace_all(dut, shape, rays, random, idle, stall)
 
 

@@ -43,7 +43,7 @@ async def counts_all_lines(dut, most):
 
 
 @cocotb.test
-@cocotb.parametrize(row=(0, 1, 3))
+@cocotb.parametrize(row=(0, 1, 2, 3))
 async def counts_far(dut, row):
     """Rows of any width, then 64 of 4,096 pixels; then as many verdicts: zero with the last and not before."""
     random, width, lines = bench.rng(row), bench.parameter(dut, "Verdicts"), bench.parameter(dut, "Lines")
