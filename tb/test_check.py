@@ -141,7 +141,7 @@ async def reset_forgets(dut):
 
 @pytest.mark.parametrize(
     "parameters",
-    [BUILT, dict(K=1, Surfaces=1, MaxWidth=1), dict(K=31, Surfaces=33, MaxWidth=4096)],
+    [BUILT, dict(K=1, Surfaces=1, MaxWidth=1), dict(K=32, Surfaces=33, MaxWidth=4096)],
     ids=bench.label,
 )
 def test_check(parameters):

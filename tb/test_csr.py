@@ -444,7 +444,7 @@ async def reset_empties(dut):
     "parameters",
     [
         {},
-        dict(N1=1, K=31, W=16, D=2, U=3, Rules=1, Clip=0, Vecsum=2, Lanes=1, VectorUnits=2, Rings=5, VectorRings=3,
+        dict(N1=1, K=32, W=16, D=2, U=3, Rules=1, Clip=0, Vecsum=2, Lanes=1, VectorUnits=2, Rings=5, VectorRings=3,
              Surfaces=5, Layers=1, MaxWidth=4096, Pixels=4),
     ],
     ids=("default", "other"),

@@ -159,7 +159,7 @@ async def keeps_lines(dut, idle, spots):
 
 @cocotb.test
 async def each_pixel_has_its_own_limit(dut):
-    """Opaque hits at all pixels of a line, or many: each pixel has its own limit, and none once it was read."""
+    """Opaque hits at all pixels of all lines, or many: each pixel has its own limit, and none once it was read."""
     lines = Lines(dut, bench.rng())
     await bench.start(dut)
     await lines.sweep()
@@ -167,11 +167,12 @@ async def each_pixel_has_its_own_limit(dut):
     dut.opaque_i.value = lines.opaque
     xs = sorted({*range(min(48, lines.width)), *range(lines.width - 48, lines.width)} & set(range(lines.width)))
     for flip in (bench.high(DEPTH_WIDTH), 0):
-        for row in range(lines.lines):
-            for x in xs:
+        for x in xs:
+            for row in range(lines.lines):
                 assert await lines.clock(lines.record(row, [x]) | {"hit": 1, "depth": x ^ flip})
-            for _ in range(WRITTEN):
-                await lines.clock()
+        for _ in range(WRITTEN):
+            await lines.clock()
+        for row in range(lines.lines):
             for x in xs:
                 await lines.clock(look=(row, x))
             for group in sorted({x // lines.pixels for x in xs}):
