@@ -155,6 +155,17 @@ async def pixels_outside_take_their_clocks(dut):
             assert count * 40 <= b - a <= count * (40 + LANES_WORDS + WAY + 10), (a, b)
 
 
+async def aborted(dut, random, frame, abort):
+    """A frame with abort_i in that clock: rows are those before, every line ends."""
+    result, _ = await rows(dut, random, frame, abort=abort, stall=0.2, free=0.5)
+    ends = [event for event in result.events if event[0] == "end"]
+    assert ends == [("end", y) for y in range(frame.height)] and result.error is None
+    assert result.after_abort <= 1
+    assert [e for e in result.events if e[0] == "row"] == [e for e in frame.events() if e[0] == "row"][
+        : len(result.events) - len(ends)
+    ]
+
+
 @cocotb.test
 @cocotb.parametrize(skip=(True, False))
 async def abort_ends_the_frame(dut, skip):
@@ -164,15 +175,21 @@ async def abort_ends_the_frame(dut, skip):
     for _ in range(40):
         frame = walking.random_frame(random, random.choice(counts(dut)), KINDS, skip)
         abort = random.choice((1, 2 * len(frame.descriptors) + 1, random.randrange(1, 300)))
-        result, _ = await rows(dut, random, frame, abort=abort, stall=0.2, free=0.5)
-        ends = [event for event in result.events if event[0] == "end"]
-        assert ends == [("end", y) for y in range(frame.height)] and result.error is None
-        assert result.after_abort <= 1
-        assert [e for e in result.events if e[0] == "row"] == [e for e in frame.events() if e[0] == "row"][
-            : len(result.events) - len(ends)
-        ]
+        await aborted(dut, random, frame, abort)
         small = walking.random_frame(random, 1, KINDS, skip)
         await whole(dut, random, small)
+
+
+@cocotb.test
+async def abort_in_each_clock(dut):
+    """Frames whose constants change from row to row, an abort in each of the clocks to the third row."""
+    random = bench.rng()
+    await start(dut)
+    count = min(2, bench.parameter(dut, "Slots"))
+    frame = walking.Frame(random, 4, 2, [(0, 0, 3, 1)] * count, [VECTOR] * count)
+    for abort in range(1, 3 * (LANES_WORDS + FORM_WORDS), 2):
+        await aborted(dut, random, frame, abort)
+    await whole(dut, random, frame)
 
 
 @cocotb.test
