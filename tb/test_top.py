@@ -63,9 +63,9 @@ def golden(name, size=SIZE):
     return scene, compiled, compose(scene, trace_golden(compiled, CONFIG), CONFIG, CONFIG.layers).rgb
 
 
-async def program(host, name, change=None):
+async def program(host, name, change=None, size=SIZE):
     """Do to the registers what the driver does for a frame; ``change`` may alter an operation (address, value)."""
-    scene, compiled, _ = golden(name)
+    scene, compiled, _ = golden(name, size)
     driver = processor.Host()
     driver.frame(scene, compiled, CONFIG)
     for kind, address, value, _ in driver.operations:
@@ -85,24 +85,24 @@ async def begin(dut, stall):
 @cocotb.test
 @cocotb.parametrize(stall=(0.0, 0.4))
 async def frames_equal_golden(dut, stall):
-    """Frames of three scenes, each written while the one before is made: every pixel is the golden model's."""
+    """Frames of three scenes and sizes, each written while the one before is made: their pixels are the golden ones."""
     host, display = await begin(dut, stall)
-    names = ("sphere", "cone", "ellipsoid", "sphere")
+    frames = ("sphere", SIZE), ("cone", (7, 4)), ("ellipsoid", (24, 6)), ("sphere", SIZE)
 
     async def write_all():
-        for name in names:
+        for name, size in frames:
             while (await host.get("STATUS"))["queued"]:
                 pass
-            await program(host, name)
+            await program(host, name, size=size)
 
     writing = cocotb.start_soon(write_all())
-    for name in names:
-        assert (await display.picture(*SIZE) == golden(name)[2]).all(), name
+    for name, size in frames:
+        assert (await display.picture(*size) == golden(name, size)[2]).all(), name
     await writing
-    while (await host.get("FRAMES"))["count"] < len(names):
+    while (await host.get("FRAMES"))["count"] < len(frames):
         pass
     counted = {name.lower(): (await host.get(name))["count"] for name in ("RAYS", "HITS", "VISIBLE", "LAYERS_LOST")}
-    frame = golden(names[-1])
+    frame = golden(*frames[-1])
     assert counted["layers_lost"] == 0 and 0 < counted["visible"] <= counted["hits"]
     rows = frame[1].surfaces[0].rect
     assert counted["rays"] <= (rows[2] - rows[0] + 1) * (rows[3] - rows[1] + 1)
