@@ -83,7 +83,15 @@ def slots(slots, phases):
         ("rdx_slots", "leave_q == slot_t'(Slots - 1)", "leave_q == slot_t'(Slots - 2)"),
     )
     says = "what an item began with comes back each turn, until its slot is given anew"
-    return Proof("formal_slots", "rdx_slots", says, {"Slots": slots, "Phases": phases, "W": 1}, "pdr", broken, depth=40)
+    return Proof(
+        "formal_slots",
+        "rdx_slots",
+        says,
+        {"Slots": slots, "Phases": phases, "W": 1},
+        "pdr",
+        broken,
+        depth=40 * min(phases, 2),
+    )
 
 
 def ring(parameters, always, **rest):
@@ -113,7 +121,7 @@ def ring(parameters, always, **rest):
     narrow = ("rdx_pkg", "int unsigned LimitWidth = 18;", "int unsigned LimitWidth = 2;")
     return Proof(
         "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short, narrow),
-        stages=3, depth=60, **rest,
+        stages=3, depth=60 if always else 70, **rest,
     )  # fmt: skip
 
 
