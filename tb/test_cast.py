@@ -10,21 +10,21 @@ import looks
 import spirals
 import test_core
 import walking
+from raydix.compile import compile_scene
 from raydix.formats import DEPTH_WIDTH, HEADER_WORDS
 from raydix.golden import trace_golden
 from raydix.ring import behind
 from raydix.rtl import parameters
 from test_core import CONFIG, compiled_frame
 
-FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "k_stop": CONFIG.k_stop, "ambient": 0}
-FRAME |= {"background": [0, 0, 0]}
+FRAME = {"last_x": 0, "last_y": 0, "last_slot": 0, "empty": 0, "ambient": 0, "background": [0, 0, 0]}
 FRAME |= dict.fromkeys(walking.SKIPS, 0)
 HIDDEN, ROOTLESS, BEYOND = range(3)  # reasons
 
 
-async def cast(dut, random, frame, skips, share, stall):
+async def cast(dut, random, frame, skips, share, stall, k_stop, pause):
     """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, bit of the row), items that ended)."""
-    dut.frame_i.value = walking.FRAME.pack(FRAME | dict.fromkeys(skips, 1))
+    dut.frame_i.value = walking.FRAME.pack(FRAME | dict.fromkeys(skips, 1) | {"k_stop": k_stop})
     limits, load, hit = (
         looks.Limits(dut, random, share),
         bench.Port(dut, "load_i", feeding.WORD),
@@ -33,7 +33,7 @@ async def cast(dut, random, frame, skips, share, stall):
     limits.depths = tuple(sorted(surface.words[2] & ((1 << DEPTH_WIDTH) - 1) for surface in frame.compiled.surfaces))
     found = [int(d) for hits in frame.surfaces for d in hits.depth[hits.t >= 0]]
     limits.depths = (0, *limits.depths, looks.FAR, *random.choices(found, k=12))
-    records, without, words, formed, ended = [], [], [], None, 0
+    records, without, words, formed, ended, clock = [], [], [], None, 0, 0
     for surface in frame.compiled.surfaces:
         for y in range(surface.rect[1], surface.rect[3] + 1):
             words += feeding.row([int(w) for w in surface.words], y, surface.is_vector_sum and formed is not surface)
@@ -49,7 +49,8 @@ async def cast(dut, random, frame, skips, share, stall):
         if word and room:
             load.write(word | {"word": word["word"] or 0})
             words.pop(0)
-        dut.hit_ready_i.value = int(random.random() >= stall)
+        dut.hit_ready_i.value = int(clock >= pause and random.random() >= stall)
+        clock += 1
         await ReadOnly()
         asked = limits.asked()
         if dut.hit_valid_o.value == 1 and dut.hit_ready_i.value == 1:
@@ -105,9 +106,9 @@ def filled(frame, records, limits):
     return out, hidden, empty, cut
 
 
-async def compare(dut, random, frame, skips=(), share=0.0, stall=0.0):
+async def compare(dut, random, frame, skips=(), share=0.0, stall=0.0, k_stop=CONFIG.k_stop, pause=0):
     """A frame against the golden model; how many pixels have no ray, by reason."""
-    records, limits, without, ended = await cast(dut, random, frame, skips, share, stall)
+    records, limits, without, ended = await cast(dut, random, frame, skips, share, stall, k_stop, pause)
     records, hidden, empty, cut = filled(frame, records, limits)
     assert cut[0] <= ended <= cut[1] and (ended > 0) == (share > 0), f"{ended} items have ended; {cut}"
     if "boxes" not in skips:  # then cells beyond a face take steps, too
@@ -142,6 +143,25 @@ async def equals_golden(dut, scene):
 
 
 @cocotb.test
+async def full_queues_lose_nothing(dut):
+    """No hit is taken for so long that rays wait in all queues and for them."""
+    await start(dut)
+    frame = trace_golden(compile_scene(spirals.load("glass", 24, 18), CONFIG), CONFIG)
+    assert await compare(dut, bench.rng(), frame, pause=4000) == [0, 0, 0]
+
+
+@cocotb.test
+@cocotb.parametrize(k_stop=(1, 3), skips=((), ("boxes", "early")))
+async def fewer_steps(dut, k_stop, skips):
+    """Frames of fewer steps to a hit, that is fewer digits of t."""
+    random = bench.rng(k_stop)
+    await start(dut)
+    for scene in ("gallery", "torus"):
+        frame = trace_golden(compiled_frame(scene), CONFIG.with_(k_stop=k_stop))
+        await compare(dut, random, frame, skips, k_stop=k_stop)
+
+
+@cocotb.test
 @cocotb.parametrize(skips=("rootless", "boxes", "both"))
 async def dropped_rays_have_no_hit(dut, skips):
     """Each reason alone, and both: a ray without records has no hit in the golden model, and is told once."""
@@ -166,7 +186,7 @@ async def hidden_pixels_have_no_ray(dut, scene):
     random = bench.rng(scene)
     await start(dut)
     frame = trace_golden(compiled_frame(scene), CONFIG)
-    counts = await compare(dut, random, frame, ("rootless", "boxes", "depth"), share=0.5)
+    counts = await compare(dut, random, frame, ("rootless", "boxes", "depth", "early"), share=0.5)
     assert counts[HIDDEN] > 10, counts
 
 
