@@ -19,6 +19,7 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
+    await ring.still(dut, 2)
     n1, degree, units, rules, stages = (bench.parameter(dut, n) for n in ("N1", "D", "U", "Rules", "HalveStages"))
     return ring.Shape(dut, random, Slots=units * latency.step(n1, degree, stages, 0, rules) + 3)
 

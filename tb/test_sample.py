@@ -74,7 +74,8 @@ async def equals_model(dut):
 
     for name, index in spirals.GENERAL if general else spirals.HELIX:
         found = spirals.surface(name, index, n1)
-        await bench.noise(dut, "form_i")
+        await bench.noise(dut, "form_i", "modes_i")
+        dut.modes_i.value = 3  # rdx_pkg::ModesDefault
         bench.Port(dut, "form_i", bench.FORM).write(bench.form_fields(spirals.form(found)))
         items = list(stimuli(dut, random, found, 80))
         answers = [model(dut, found, item) for item in items]
