@@ -98,15 +98,17 @@ def segment_of(first, degree):
 
 
 def random_chord(random, shape):
-    """First segment of a ray of the frame, from either end; or between any two points within reach and depths."""
+    """First segment of a ray of the frame, from either end, or ending on its way; or between any two points."""
     first = random.choice(shape.firsts).copy()
-    reach = 7 << COORD_FRAC - 2
+    reach, part = 7 << COORD_FRAC - 2, random.random()
     kind = random.random()
     if kind < 0.2:
         first[C : C + 6] = words(random.randint(-reach, reach) for _ in range(6))
         first[DEPTH : DEPTH + 2] = words(random.getrandbits(31) for _ in range(2))
     elif kind < 0.4:
         first[C : C + 3], first[C + 3 : C + 6] = first[C + 3 : C + 6].copy(), first[C : C + 3].copy()
+    elif kind < 0.5:
+        first[C + 3 : C + 6] = words(int(first[C + i] + part * (first[C + 3 + i] - first[C + i])) for i in range(3))
     ends(first, new_lanes(2), shape.form, shape.general)
     return segment_of(first, 1)
 
@@ -163,6 +165,15 @@ def known_ray(random, shape, number, count):
     """A ray with ``count`` roots far from each other, all of them wanted, without a box."""
     ray, segment = random_ray(random, shape, number)
     segment["b"] = bernstein([0.2, 0.4, 0.6, 0.8][:count], shape.degree, shape.width, random.choice((-1, 1)))
+    return {**ray, "roots": 4, "box": [0, 0, 0], "limit": NO_LIMIT}, segment
+
+
+def close_ray(random, shape, number):
+    """A ray with roots in neighbouring cells of the last step, both wanted: the second may be left for a restart."""
+    ray, segment = random_ray(random, shape, number)
+    cells = 1 << shape.n1 * shape.steps
+    roots = [(2 * random.randrange(cells // 2) + 0.5) / cells]
+    segment["b"] = bernstein([*roots, roots[0] + 1 / cells], shape.degree, shape.width, random.choice((-1, 1)))
     return {**ray, "roots": 4, "box": [0, 0, 0], "limit": NO_LIMIT}, segment
 
 
@@ -252,9 +263,9 @@ RATES = (0.0, 0.3, 0.8)
 PORTS = dict(prefix="ray_", data=("ray_i", "segment_i"))
 
 
-async def still(dut):
+async def still(dut, degree):
     """The ports that stand still, noise there before: modes as usual, constants of a surface to come."""
-    await bench.noise(dut, "modes_i", *["form_i"] * (bench.parameter(dut, "D") == 1))
+    await bench.noise(dut, "modes_i", *["form_i"] * (degree == 1))
     dut.modes_i.value = ALL_MODES
 
 
@@ -263,7 +274,7 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    await still(dut)
+    await still(dut, bench.parameter(dut, "D"))
     return Shape(dut, random)
 
 
@@ -353,6 +364,7 @@ async def equals_model(dut, idle, stall):
         rays = [known_ray(random, shape, count, count) for count in range(shape.degree + 1)]
         for count, ray in enumerate(rays):
             assert sum(r["hit"] for r in model(shape, *ray)) == count
+        rays += [close_ray(random, shape, number) for number in range(len(rays), 15)]
         rays += [random_ray(random, shape, number) for number in range(len(rays), 70)]
     while shape.limited and not any(model(shape, *ray)[-1].get("ended") for ray in rays):
         rays.append(random_ray(random, shape, len(rays)))

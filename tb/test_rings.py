@@ -28,7 +28,7 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    await ring.still(dut)
+    await ring.still(dut, bench.parameter(dut, "D"))
     return Rings(dut, random)
 
 

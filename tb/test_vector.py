@@ -28,7 +28,7 @@ async def start(dut, random):
     dut.ray_valid_i.value = 0
     dut.hit_ready_i.value = 0
     await bench.start(dut)
-    await bench.noise(dut, "form_i")
+    await ring.still(dut, 1)
     return Vector(dut, random)
 
 
