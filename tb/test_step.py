@@ -202,6 +202,8 @@ async def equals_model(dut):
         return expected(dut, kinds, seen, item)
 
     await bench.start(dut)
+    await bench.noise(dut, "modes_i")
+    dut.modes_i.value = 3  # boxes and early leaving, all digits
     await bench.pipeline(dut, stimuli(dut, 1000), expect, latency_of(dut), kinds)
     assert seen == EVERY_CHANGE, seen
     dut.modes_i.value = 1  # early leaving only: no boxes
@@ -342,6 +344,8 @@ async def vector_sums_equal_model(dut):
     kinds, seen, random = structs(dut), set(), bench.rng()
     place = bench.Port(dut, "form_i", bench.FORM)
     await bench.start(dut)
+    await bench.noise(dut, "modes_i")
+    dut.modes_i.value = 3  # boxes and early leaving, all digits
     clocks = 0
     for found in surfaces(dut):
         constants = spirals.form(found)

@@ -24,9 +24,22 @@ from raydix.config import Config
 from raydix.cordic import gain
 from raydix.core import FORM_AT
 from raydix.kernel import words, zeros
+from raydix.multiply import scaled
 from raydix.rtl import ROOT
 from raydix.scene import load_scene
-from raydix.swirl import START_REACH, STOP_REACH, swirl
+from raydix.swirl import (
+    GROWTH_DROP,
+    HEIGHT,
+    PITCH,
+    RADIUS,
+    RADIUS_GROWTH,
+    SCALE,
+    START_REACH,
+    STOP_REACH,
+    _polar,
+    swirl,
+    turn,
+)  # fmt: skip
 from test_vecsum import Form, beside, points, random_form
 
 LOOSE = ("tube", "pitch_radian", "radius_radian", "tube_radian", "near", "bend", "start_reach", "stop_reach")
@@ -81,6 +94,27 @@ def loosen(dice, found, general):
         found.words[STOP_REACH] = found.words[START_REACH]
 
 
+def leg_at_its_end(dice, found, general, point):
+    """Change a constant so that a leg of ``point`` is exactly the longest that does not count, or one ulp less or more.
+
+    Returns whether that is possible: the constant fits, and the scale has such a length.
+    """
+    x, y, z = (int(v) >> (formats.COORD_FRAC - formats.SWIRL_FRAC) for v in point)
+    rho, azimuth = _polar(x, y)
+    place, _ = turn(rho, z, azimuth, found.words, general)
+    ulp = 64 >> int(found.words[SCALE])
+    length = dice.choice((-1, 1)) * ((1 << 17) - 1 + dice.choice((-1, 0, 0, 1))) * ulp
+    if dice.random() < 0.5:
+        grown = scaled(place, found.words[RADIUS_GROWTH], GROWTH_DROP) if general else 0
+        index, word = RADIUS, rho - grown - length
+    else:
+        index, word = HEIGHT, z - scaled(place, found.words[PITCH], GROWTH_DROP) - length
+    if ulp and abs(word) < 1 << (formats.SWIRL_WIDTH - 1):
+        found.words[index] = word
+        return True
+    return False
+
+
 def gradient(found, point, general):
     """The model's."""
     out = zeros(3)
@@ -119,20 +153,24 @@ async def equals_model(dut):
     dice, general, surfaces = bench.rng(), bench.parameter(dut, "General"), bench.parameter(dut, "Surfaces")
     await bench.start(dut)
     numbers = range(surfaces) if surfaces < 9 else (0, *dice.sample(range(1, surfaces - 1), 5), surfaces - 1)
-    for turn in range(6):
+    for turns in range(8):
         dut.rst_ni.value = 0
         await FallingEdge(dut.clk_i)
         dut.rst_ni.value = 1
-        ready = [s for s in scene_swirls() if general or not needs_general(s.form.surface)] if turn == 0 else []
+        ready = [s for s in scene_swirls() if general or not needs_general(s.form.surface)] if turns == 0 else []
         dice.shuffle(ready)
         places = [(bank, surface) for bank in range(2) for surface in numbers]
         materials = {place: ready.pop() if ready else random_swirl(dice, general) for place in places}
         for found in materials.values():
-            if turn and dice.random() < 0.4:
+            if turns and dice.random() < 0.4:
                 loosen(dice, found, general)
             dut._log.info(f"{found.form.surface}")
-        await write_constants(dut, dice, materials)
         stimuli = []
+        for place, found in materials.items():
+            spot = points(dice, found.form, 1)[0]
+            if turns and dice.random() < 0.7 and leg_at_its_end(dice, found, general, spot):
+                stimuli += [(place, spot)] * 3
+        await write_constants(dut, dice, materials)
         for place, found in materials.items():
             stimuli += [(place, point) for point in points(dice, found.form, 120)]
             stimuli += [(place, beside(dice, found.form)) for _ in range(120)]

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import bench
 from raydix import coverpoints
-from raydix.rtl import ROOT, RTL, environment, reached, written
+from raydix.rtl import GENERATED_CONTROL, ROOT, RTL, environment, reached, top_modules, written
 
 from . import schema, sites
 
@@ -91,7 +91,8 @@ def refused(top, parameters, path, text, mutants):
         changed.write_text(text)
         files = [str(changed if p == path else p) for p in reached(top)]
         command = ["verilator", "--lint-only", "--assert", f"-I{RTL}", "--top-module", top]
-        command += [*(f"-G{n}={v}" for n, v in parameters.items()), *files]
+        command += [*(f"-G{n}={v}" for n, v in parameters.items())]
+        command += [*([str(GENERATED_CONTROL)] if top in top_modules() else []), *files]
         run = subprocess.run(command, env=environment(), capture_output=True, text=True)
     if run.returncode == 0:
         return set()
