@@ -281,7 +281,7 @@ PROOFS = {
     "stream-fifo-block": stream("rdx_fifo", {"W": 60, "Depth": 32}, QUEUE),
     "stream-sift": stream("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, QUEUE),
     "paths-sift": paths("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, THROUGH_SIFT),
-    "stream-rings": stream("rdx_rings", SMALL | {"Rings": 2}, QUEUE, stand_ins=("rdx_step",), depth=40),
+    "stream-rings": stream("rdx_rings", SMALL | {"Rings": 2}, QUEUE, stand_ins=("rdx_step",), depth=60),
     "paths-rings": paths("rdx_rings", SMALL | {"Rings": 2}, THROUGH_RINGS, stand_ins=("rdx_step",)),
     "stream-product": stream("rdx_product", {"D": 2}, QUEUE),
     "stream-product-d4": stream("rdx_product", {"D": 4}, QUEUE, stand_ins=("rdx_quartic",)),
@@ -289,7 +289,7 @@ PROOFS = {
     "stream-raster-d4": stream("rdx_raster", {"D": 4, "Vector": 1}, WALK, depth=50),
     "stream-ends": stream("rdx_ends", {"Lanes": 1}, held("rdx_ends"), stand_ins=("rdx_vecsum",), replace=(SHORT,)),
     "stream-ring": stream("rdx_ring", SMALL, OUTPUT, stand_ins=("rdx_step",), depth=40),
-    "stream-algebraic": stream("rdx_algebraic", SMALL, QUEUE, stand_ins=("rdx_step",), depth=40),
+    "stream-algebraic": stream("rdx_algebraic", SMALL, QUEUE, stand_ins=("rdx_step",), depth=80),
     "stream-vector": stream(
         "rdx_vector", VECTOR, QUEUE, stand_ins=("rdx_step", "rdx_vecsum"), replace=(SHORT,), depth=50
     ),

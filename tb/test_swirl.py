@@ -142,6 +142,18 @@ async def write_constants(dut, random, materials):
     port.write({"we": 0, "material": 0, "constant": 0, "data": 0})
 
 
+async def write_named(dut, spirals):
+    """Some constants of materials, {(bank, surface): {name: word}}, and others among them, which must not count."""
+    port = bench.Port(dut, "write_i", WRITE)
+    for place, named in spirals.items():
+        for name, word in named.items():
+            constant = formats.SWIRL_FIRST + formats.SWIRL_INDEX[name]
+            for number, data in ((constant, int(word)), (constant ^ 32, ~int(word))):
+                port.write({"we": 1, "material": reading(place), "constant": number, "data": data})
+                await FallingEdge(dut.clk_i)
+    port.write({"we": 0, "material": 0, "constant": 0, "data": 0})
+
+
 def reading(place):
     """The word of ``material_i``."""
     return MATERIAL.pack({"bank": place[0], "surface": place[1]})

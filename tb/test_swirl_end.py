@@ -3,7 +3,6 @@
 
 import cocotb
 import pytest
-from cocotb.triggers import FallingEdge
 
 import bench
 import latency
@@ -12,7 +11,7 @@ from raydix.formats import NORMAL_WIDTH, SWIRL_FRAC, SWIRL_INDEX
 from raydix.kernel import zeros
 from raydix.swirl import PARTS_WIDTH, in_ball
 from test_split import Numbered
-from test_swirl import WRITE, reading
+from test_swirl import reading, write_named
 
 AHEAD, RHO, SIDE = 2, 6, 9  # clocks from material_i to place_i, from there to rho_i and to side_i
 ONE, TURN = 1 << (NORMAL_WIDTH - 1), 1 << SWIRL_FRAC
@@ -50,15 +49,11 @@ async def equals_model(dut):
     random, general, surfaces = bench.rng(), bench.parameter(dut, "General"), bench.parameter(dut, "Surfaces")
     places = [(bank, surface) for bank in range(2) for surface in {0, surfaces - 1, random.randrange(surfaces)}]
     await bench.start(dut)
-    port, balls, number = bench.Port(dut, "write_i", WRITE), 0, 0
+    balls = number = 0
     for _ in range(8):
         spirals = {place: constants(random, general) for place in places}
-        for place, words in spirals.items():
-            for name in NAMES:
-                constant, word = formats.SWIRL_FIRST + SWIRL_INDEX[name], int(words[SWIRL_INDEX[name]])
-                port.write({"we": 1, "material": reading(place), "constant": constant, "data": word})
-                await FallingEdge(dut.clk_i)
-        port.write({"we": 0, "material": 0, "constant": 0, "data": 0})
+        named = {place: {name: words[SWIRL_INDEX[name]] for name in NAMES} for place, words in spirals.items()}
+        await write_named(dut, named)
         items = [(place, point(random, spirals[place])) for place in random.choices(places, k=1000)]
         wanted = [int(in_ball(*at[:4], spirals[place], at[4])) for place, at in items]
         balls, number = balls + sum(wanted), number + len(wanted)

@@ -3,15 +3,13 @@
 
 import cocotb
 import pytest
-from cocotb.triggers import FallingEdge
 
 import bench
 import latency
-from raydix import formats
-from raydix.formats import NORMAL_WIDTH, SWIRL_INDEX
+from raydix.formats import NORMAL_WIDTH
 from raydix.swirl import PARTS_WIDTH
 from test_split import Numbered
-from test_swirl import WRITE, reading
+from test_swirl import reading, write_named
 
 AHEAD = 2  # clocks from material_i to the point
 ONE = 1 << (NORMAL_WIDTH - 1)
@@ -41,18 +39,13 @@ async def equals_model(dut):
     random, general, surfaces = bench.rng(), bench.parameter(dut, "General"), bench.parameter(dut, "Surfaces")
     places = [(bank, surface) for bank in range(2) for surface in {0, surfaces - 1, random.randrange(surfaces)}]
     await bench.start(dut)
-    port, cut = bench.Port(dut, "write_i", WRITE), 0
+    cut = 0
     for _ in range(6):
         spirals = {place: tuple(random.randrange(-ONE, ONE) for _ in RADIANS) for place in places}
         edges = random.sample(places, 2)
         spirals |= {edges[0]: (ONE - 1, 1, 1), edges[1]: (1 - ONE, 1, 1)}
-        for place, found in spirals.items():
-            for name, word in zip(RADIANS, found, strict=True):
-                constant = formats.SWIRL_FIRST + SWIRL_INDEX[name]
-                for number, data in ((constant, word), (constant ^ 32, random.getrandbits(NORMAL_WIDTH))):
-                    port.write({"we": 1, "material": reading(place), "constant": number, "data": data})
-                    await FallingEdge(dut.clk_i)
-        port.write({"we": 0, "material": 0, "constant": 0, "data": 0})
+        named = {place: dict(zip(RADIANS, found, strict=True)) for place, found in spirals.items()}
+        await write_named(dut, named)
         items = [(place, point(random, spirals[place])) for place in random.choices(places, k=800)]
         wanted = [model(spirals[place], *at, general) for place, at in items]
         cut += sum(side in (-1 << PARTS_WIDTH - 1, (1 << PARTS_WIDTH - 1) - 1) for _, side, _ in wanted)

@@ -3,7 +3,6 @@
 
 import cocotb
 import pytest
-from cocotb.triggers import FallingEdge
 
 import bench
 import latency
@@ -12,10 +11,11 @@ from raydix.formats import SWIRL_FRAC, SWIRL_INDEX, SWIRL_WIDTH
 from raydix.kernel import zeros
 from raydix.swirl import turn
 from test_split import Numbered
-from test_swirl import WRITE, reading
+from test_swirl import reading, write_named
 
 AHEAD = 2  # clocks from material_i to the point
 TURN = 1 << SWIRL_FRAC
+NAMES = ("turns", "turn_z", "turn_rho", "turn_offset")
 
 
 def constants(random):
@@ -48,15 +48,11 @@ async def equals_model(dut):
     random, general, surfaces = bench.rng(), bench.parameter(dut, "General"), bench.parameter(dut, "Surfaces")
     places = [(bank, surface) for bank in range(2) for surface in {0, surfaces - 1, random.randrange(surfaces)}]
     await bench.start(dut)
-    port, inside = bench.Port(dut, "write_i", WRITE), 0
+    inside = 0
     for _ in range(12):
         spirals = {place: constants(random) for place in places}
-        for place, words in spirals.items():
-            for number, word in enumerate(words[: max(SWIRL_INDEX.values())]):
-                constant = formats.SWIRL_FIRST + number
-                port.write({"we": 1, "material": reading(place), "constant": constant, "data": int(word)})
-                await FallingEdge(dut.clk_i)
-        port.write({"we": 0, "material": 0, "constant": 0, "data": 0})
+        named = {place: {name: words[SWIRL_INDEX[name]] for name in NAMES} for place, words in spirals.items()}
+        await write_named(dut, named)
         items = [(place, point(random, spirals[place], general)) for place in random.choices(places, k=700)]
         wanted = [turn(*at, spirals[place], int(general)) for place, at in items]
         inside += sum(number > TURN for number, none in wanted if not none)
