@@ -86,11 +86,18 @@ async def reset_empties(dut):
     dut.ray_valid_i.value = 0
     dut.rst_ni.value = 0
     await FallingEdge(dut.clk_i)
+    assert dut.ray_ready_o.value == 0, "a ray would be taken in the reset"
     dut.rst_ni.value = 1
     dut.ray_ready_i.value = 1
     for _ in range(24):
         assert dut.ray_valid_o.value == 0
         await FallingEdge(dut.clk_i)
+    # every place is free, and no more than there are
+    taken, dut.ray_valid_i.value, dut.ray_ready_i.value = 0, 1, 0
+    for _ in range(40):
+        taken += int(dut.ray_ready_o.value)
+        await FallingEdge(dut.clk_i)
+    assert taken == (16 if degree == 4 else 8), f"{taken} rays are taken while none leaves"
 
 
 def outside_of_bound(b, coefficients, below_above, width):
