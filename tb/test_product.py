@@ -86,12 +86,16 @@ async def reset_empties(dut):
     dut.ray_valid_i.value = 0
     dut.rst_ni.value = 0
     await FallingEdge(dut.clk_i)
-    assert dut.ray_ready_o.value == 0, "a ray would be taken in the reset"
     dut.rst_ni.value = 1
     dut.ray_ready_i.value = 1
     for _ in range(24):
         assert dut.ray_valid_o.value == 0
         await FallingEdge(dut.clk_i)
+    assert dut.ray_ready_o.value == 1
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    assert dut.ray_ready_o.value == 0, "a ray would be taken in the reset"
+    dut.rst_ni.value = 1
     # every place is free, and no more than there are
     taken, dut.ray_valid_i.value, dut.ray_ready_i.value = 0, 1, 0
     for _ in range(40):
