@@ -162,10 +162,13 @@ async def lines_hold_their_hits(dut, idle, stall):
     while not dut.ready_o.value:
         await FallingEdge(dut.clk_i)
     assert dut.free_o.value
-    for width, height, surfaces in ((bench.parameter(dut, "MaxWidth"), 5, 4), (1, 9, 12), (7, 12, 1), (11, 4, 9)):
+    shapes = deque([(bench.parameter(dut, "MaxWidth"), 5, 4), (1, 9, 12), (7, 12, 1), (11, 4, 9)])
+    while shapes:
+        width, height, surfaces = shapes.popleft()
         opaque = random.getrandbits(64) & random.getrandbits(64)
         limits += await render(dut, random, Frame(dut, random, width, height, surfaces, opaque), idle, stall)
-    assert limits > 20 or not bench.parameter(dut, "Limit"), f"{limits} limits compared"
+        if bench.parameter(dut, "Limit") and not shapes and limits <= 20:
+            shapes.append((11, 9, 9))  # where the random frames had few: the bench ends when enough were compared
 
 
 SETS = [
