@@ -128,8 +128,13 @@ def ring(parameters, always, **rest):
 QUEUE = ("rdx_fifo", "wire advance = !valid_o || ready_i;", "wire advance = 1'b1;")
 
 
-def fifo(depth):
-    """rdx_fifo of some depth."""
+BLOCK_FROM = 4  # depth of a queue in a block RAM, in the proof: PDR does not end for 32 places, and the logic is the same
+
+
+def fifo(depth, block=False):
+    """rdx_fifo of some depth, in distributed memory or in a block RAM."""
+    texts = (("rdx_fifo", "if (Depth > 16)"), ("formal_fifo", "(Depth > 16"))
+    replace = tuple((file, old, old.replace("> 16", f">= {BLOCK_FROM}")) for file, old in texts) if block else ()
     broken = (
         ("rdx_fifo", "if (advance && next_valid) data_o <= next;", "if (advance) data_o <= data_i;"),
         ("rdx_fifo", "if (store) write_place_q <=", "if (valid_i) write_place_q <="),
@@ -138,7 +143,8 @@ def fifo(depth):
     says = (
         "what comes out is what came in, in its order, nothing lost or doubled; a word is offered within three clocks"
     )
-    return Proof("formal_fifo", "rdx_fifo", says, {"W": 1, "Depth": depth}, "pdr", broken, depth=80)
+    says += ", in a block RAM" if block else ""
+    return Proof("formal_fifo", "rdx_fifo", says, {"W": 1, "Depth": depth}, "pdr", broken, replace=replace, depth=80)
 
 
 def stream(top, parameters, *broken, method="induction 2", **rest):
@@ -276,7 +282,8 @@ PROOFS = {
         "rdx_register", {"W": 32}, ("rdx_register", "if (ready_o && valid_i) data_o", "if (valid_i) data_o")
     ),
     "fifo": fifo(4),
-    "fifo-block": fifo(32),
+    "fifo-two": fifo(2),
+    "fifo-block": fifo(BLOCK_FROM, block=True),
     "stream-fifo": stream("rdx_fifo", {"W": 202, "Depth": 16}, QUEUE),
     "stream-fifo-block": stream("rdx_fifo", {"W": 60, "Depth": 32}, QUEUE),
     "stream-sift": stream("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, QUEUE),

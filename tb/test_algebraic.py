@@ -46,6 +46,7 @@ async def through(dut, shape, random, idle, stall, count):
     sink = ring.hit_sink(dut, random, stall)
     cocotb.start_soon(streams.source(dut, given, random, idle, "ray_", NAMES, STRUCTS))
     await ring.all_taken(shape, rays, sink, cocotb.start_soon(sink.take(records, quiet=2 * shape.turn)))
+    assert not dut.rootless_o.value and not dut.beyond_o.value, "without rdx_sift no ray is kept out"
 
 
 @cocotb.test

@@ -149,6 +149,17 @@ def test_fusesoc_core_is_complete():
     assert names == list(top_parameters(Config()))
 
 
+def test_fusesoc_builds(tmp_path):
+    """FuseSoC finds the core, takes its files and parameters, and Verilator accepts them; a parameter arrives."""
+    config = tmp_path / "fusesoc.conf"
+    config.write_text(f"[main]\ncache_root = {tmp_path / 'cache'}\nlibrary_root = {tmp_path / 'libraries'}\n")
+    fusesoc = [Path(sys.executable).with_name("fusesoc"), "--config", config, "--cores-root", ROOT]
+    command = [*fusesoc, "run", "--target", "lint", "raydix:ip:raydix", "--D", "2", "--Vecsum", "0"]
+    assert "%Warning" not in check(*command, "--Rings", "1", "--Surfaces", "1", cwd=tmp_path)
+    given = [path.read_text().split() for path in tmp_path.glob("build/**/*.vc")]
+    assert len(given) == 1 and "-GD=2" in given[0] and "--lint-only" in given[0]
+
+
 def test_modules_are_short():
     """A module is below 200 lines."""
     long = {p.name: n for p in written() if (n := len(p.read_text().splitlines())) >= 200}
