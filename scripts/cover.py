@@ -13,7 +13,7 @@ from rich.table import Table
 
 from raydix import coverpoints
 from raydix.blocks import read_table, write_table
-from raydix.rtl import sources, top_modules
+from raydix.files import sources, top_modules
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "coverage.md"

@@ -31,7 +31,7 @@ from rich.table import Table
 
 from formal_proofs import PROOFS
 from raydix.blocks import read_table, write_table
-from raydix.rtl import RTL, sources
+from raydix.files import RTL, named, sources
 from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
 HARNESSES = ROOT / "tb" / "formal"
@@ -79,17 +79,11 @@ def files(proof, change=None):
     unused = {stem for stem in harnesses if stem in paths and stem not in proof.stand_ins}
     paths |= {stem: path for stem, path in harnesses.items() if stem not in unused}
     texts = {stem: path.read_text() for stem, path in paths.items()}
-    headers = {name.removesuffix(".svh"): text for name, text in included().items()}
     for name, old, new in [*proof.replace, *([change] if change else [])]:
         if name not in texts or texts[name].count(old) != 1:
             raise SynthError(f"{name}: to be replaced, but not there exactly once: {old!r}")
         texts[name] = texts[name].replace(old, new)
-    found, new = set(), {proof.top}
-    while new:
-        found |= new
-        code = " ".join(re.sub(r"//.*", "", (headers | texts)[name]) for name in new)
-        named = set(re.findall(r"\b(?:rdx|formal)_\w+\b", code)) & (headers.keys() | texts.keys())
-        new = named - found
+    found = named([proof.top], included() | texts)
     return {f"{stem}.sv": text for stem, text in texts.items() if stem in found}
 
 

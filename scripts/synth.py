@@ -35,7 +35,7 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from raydix.blocks import read_table, write_table
-from raydix.rtl import RTL, sources
+from raydix.files import RTL, parts, sources
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "synth"
@@ -228,18 +228,6 @@ def keep(path, value):
 # ---- counts ----
 
 
-def needed(top):
-    """The sources that ``top`` is made of, in the order of rdx.f, and the included files."""
-    files = {path.stem: path for path in sources()} | {path.name: path for path in sorted(RTL.glob("*.svh"))}
-    found, new = set(), {top}
-    while new:
-        found |= new
-        code = " ".join(re.sub(r"//.*", "", files[name].read_text()) for name in new)
-        new = (set(re.findall(r"\brdx_\w+\b(?:\.svh)?", code)) & files.keys()) - found
-    paths = [path for name, path in files.items() if name in found]
-    return [p for p in paths if p.suffix == ".sv"], [p for p in paths if p.suffix == ".svh"]
-
-
 def check(name):
     """See that a design point's module and parameters exist; read_slang ignores a parameter that does not."""
     point = POINTS[name]
@@ -253,7 +241,7 @@ def check(name):
 
 def synthesise(point, tools, say):
     """Netlist and cell counts of the module alone: (folder, counts.json, whether they were there already)."""
-    modules, included = needed(point.top)
+    modules, included = parts(point.top)
     values = " ".join(f"-G {name}={value}" for name, value in point.parameters.items())
     # paths relative to the project: they are in names of cells, which must not depend on where the project lies
     files = " ".join(os.path.relpath(path, ROOT) for path in modules)

@@ -28,16 +28,7 @@ from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
 import second
 from raydix import coverpoints, formats
-from raydix.rtl import (
-    GENERATED_CONTROL,
-    ROOT,
-    RTL,
-    TRACE_CONTROL,
-    environment,
-    has_fst,
-    reached,
-    top_modules,
-)  # fmt: skip
+from raydix.files import GENERATED_CONTROL, ROOT, RTL, TRACE_CONTROL, environment, has_fst, reached, top_modules
 
 BUILD = ROOT / "build" / "tb"
 WAVES = ROOT / "build" / "waves"

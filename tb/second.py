@@ -19,7 +19,7 @@ import tempfile
 from importlib.metadata import version
 from pathlib import Path
 
-from raydix.rtl import ROOT, RTL, reached
+from raydix.files import ROOT, RTL, reached
 
 BUILD = ROOT / "build" / "second"
 MISSING = "iverilog is missing (Debian: apt-get install iverilog)"

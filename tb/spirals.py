@@ -8,11 +8,11 @@ from raydix.config import Config
 from raydix.core import FORM_AT
 from raydix.ends import ends
 from raydix.fdiff import ROWS, next_pixel, next_row
+from raydix.files import ROOT
 from raydix.item import AGAIN, DONE, HIT, ROOTS, RUN, SIZE, STATUS
 from raydix.kernel import words, zeros
 from raydix.raster import LANES, header, load_lanes, roots_wanted, sample
 from raydix.ring import enter, more, restart
-from raydix.rtl import ROOT
 from raydix.scene import load_scene
 from raydix.step import new_work, step
 from raydix.vecsum import new_lanes

@@ -7,7 +7,7 @@ from cocotb.triggers import FallingEdge, ReadOnly
 
 import bench
 from raydix import csr, formats
-from raydix.rtl import RTL
+from raydix.files import RTL
 
 UNIT, PIXEL, SURFACE = 17, formats.PIXEL_WIDTH, formats.SURFACE_WIDTH
 _LIGHT = ("skip", 5), ("ambient", UNIT), ("background", UNIT, 3)

@@ -352,7 +352,7 @@ def test_too_thin_clip_is_refused(tmp_path, capsys):
 @pytest.mark.parametrize("name", ["wave.vcd", "wave.png", "wave.fst"])
 def test_wave(name, tmp_path, capsys):
     """The RTL back end writes a VCD; FST where lz4.h is there; another ending is refused."""
-    from raydix.rtl import has_fst
+    from raydix.files import has_fst
 
     wave, out = tmp_path / name, tmp_path / "out"
     command = ["render", str(ROOT / "scenes" / "sphere.toml"), "--backend", "rtl", "--size", "8x6", "--out", str(out)]

@@ -12,7 +12,7 @@ from cocotb.triggers import FallingEdge
 import bench
 from raydix import coverpoints
 from raydix.coverpoints import Point, Row
-from raydix.rtl import ROOT, sources, written
+from raydix.files import ROOT, sources, written
 
 MODULE = """module rdx_small (
     input wire logic clk_i, input wire logic rst_ni, input wire logic [3:0] count_i, output logic [3:0] sum_o

@@ -9,19 +9,9 @@ from pathlib import Path
 import pytest
 
 from raydix.config import Config
+from raydix.files import GENERATED_CONTROL, LINT_CONTROL, RTL, environment, reached, sources, top_sources, written
 from raydix.formats import drift
-from raydix.rtl import (
-    GENERATED_CONTROL,
-    LINT_CONTROL,
-    RTL,
-    environment,
-    parameters,
-    reached,
-    sources,
-    top_parameters,
-    top_sources,
-    written,
-)
+from raydix.rtl import parameters, top_parameters
 
 ROOT = Path(__file__).resolve().parents[1]
 COLUMNS = 120

@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from raydix.rtl import ROOT, RTL
+from raydix.files import ROOT, RTL
 
 sys.path.append(str(ROOT / "scripts"))  # behind tb/, which has modules of the same names
 from mutants import main as mutants_main  # noqa: E402  (scripts/ is not installed)

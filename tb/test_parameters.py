@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 import bench
-from raydix.rtl import RTL, environment, sources, written
+from raydix.files import RTL, environment, sources, written
 
 # module, its parameters, text of the reason
 CASES = [

@@ -13,7 +13,7 @@ from cocotb.triggers import Timer
 
 import bench
 import second
-from raydix.rtl import ROOT, RTL
+from raydix.files import ROOT, RTL
 
 WIDTH = 173
 

@@ -23,9 +23,9 @@ from raydix.compile_swirl import swirl_words
 from raydix.config import Config
 from raydix.cordic import gain
 from raydix.core import FORM_AT
+from raydix.files import ROOT
 from raydix.kernel import words, zeros
 from raydix.multiply import scaled
-from raydix.rtl import ROOT
 from raydix.scene import load_scene
 from raydix.swirl import (
     GROWTH_DROP,

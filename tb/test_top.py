@@ -13,9 +13,10 @@ import bench
 from raydix import processor
 from raydix.compile import compile_scene
 from raydix.config import Config
+from raydix.files import ROOT
 from raydix.golden import trace_golden
 from raydix.raster import QUARTIC_AT, ROOTS_AT, VECTOR_AT
-from raydix.rtl import ROOT, top_parameters
+from raydix.rtl import top_parameters
 from raydix.scene import load_scene
 from raydix.shade import compose
 from test_csr import LIMIT, MAP, OK, Host

@@ -23,8 +23,8 @@ from raydix.compile_spiral import Oversize, needs_general, spiral_words
 from raydix.config import Config
 from raydix.cordic import gain
 from raydix.core import FORM_AT
+from raydix.files import ROOT
 from raydix.kernel import words
-from raydix.rtl import ROOT
 from raydix.scene import Spiral, load_scene
 from raydix.vecsum import evaluate, new_lanes
 from test_cordic import bounds

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from .rtl import ROOT
+from .files import ROOT
 
 COVER = ROOT / "tb" / "cover"
 MANIFEST = "RAYDIX_COVERAGE"  # environment: scripts/coverage.py sets it to a file that names of results are appended to

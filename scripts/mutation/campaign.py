@@ -16,7 +16,7 @@ from pathlib import Path
 
 import bench
 from raydix import coverpoints
-from raydix.rtl import GENERATED_CONTROL, ROOT, RTL, environment, reached, top_modules, written
+from raydix.files import GENERATED_CONTROL, ROOT, RTL, environment, reached, top_modules, written
 
 from . import schema, sites
 

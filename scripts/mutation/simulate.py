@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 import bench
-from raydix.rtl import RTL
+from raydix.files import RTL
 
 
 def main():
