@@ -78,8 +78,8 @@ def fdiff(w, quadratic, places, sums=0):
 def slots(slots, phases):
     """rdx_slots of some number of slots."""
     broken = (
-        ("rdx_slots", "origins[enter_q]  <= origin_i", "origins[next_q] <= origin_i"),
-        ("rdx_slots", "segments[enter_q] <= segment_i", "segments[leave_q] <= segment_i"),
+        ("rdx_slots", "origins[enter_q]  <= origin_i", "origins[behind] <= origin_i"),
+        ("rdx_slots", "segments[enter_q] <= segment_i", "segments[behind] <= segment_i"),
         ("rdx_slots", "leave_q == slot_t'(Slots - 1)", "leave_q == slot_t'(Slots - 2)"),
     )
     says = "what an item began with comes back each turn, until its slot is given anew"

@@ -190,6 +190,21 @@ async def hidden_pixels_have_no_ray(dut, scene):
     assert counts[HIDDEN] > 10, counts
 
 
+@cocotb.test
+async def helices(dut):
+    """Helices and a sphere: nothing skipped, then everything that can be, with random limits."""
+    random = bench.rng()
+    await start(dut)
+    own = {field: bench.parameter(dut, name) for field, name in (("n1", "N1"), ("steps", "K"), ("degree", "D"))}
+    config = CONFIG.with_(**own, lanes=None, k_stop=None)
+    frame = trace_golden(compile_scene(spirals.load(spirals.HELICES, 16, 12), config), config)
+    assert frame.counts()["hits"] > 10
+    assert await compare(dut, random, frame, stall=0.3, k_stop=config.k_stop) == [0, 0, 0]
+    skips = ("rootless", "boxes", "depth", "early")
+    counts = await compare(dut, random, frame, skips, share=0.9, k_stop=config.k_stop)
+    assert counts[HIDDEN] > 0 and counts[ROOTLESS] > 0, counts
+
+
 def test_cast():
     """Quartics, quadrics and spirals."""
     bench.run(__name__, "rdx_cast", parameters(CONFIG))
@@ -202,3 +217,9 @@ ALGEBRAIC += [f"dropped_rays_have_no_hit/skips={skips}" for skips in ("rootless"
 def test_cast_without_spirals():
     """The same where no evaluator of vector sums is built."""
     bench.run(__name__, "rdx_cast", parameters(CONFIG.with_(vecsum="none")), ALGEBRAIC)
+
+
+def test_cast_with_one_evaluator():
+    """Helices alone on the smallest rings: a digit a step, one unit each."""
+    config = CONFIG.with_(n1=1, steps=6, degree=2, units=1, rules="certified", vecsum="helix", lanes=1)
+    bench.run(__name__, "rdx_cast", parameters(config), ["helices"])
