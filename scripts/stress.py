@@ -40,9 +40,14 @@ LIMIT_CATEGORIES = (
     "two close roots in a cell", "roots in neighbouring cells", "saturating coefficients",
 )  # fmt: skip
 HEADER = (
-    "category", "rule", "rays", "hit", "missed", "false", "wrong", "in the band: missed", "band: false", "band: wrong",
-    "given up", "rms", "median", "99.9 %", "max, ulp", "ill-conditioned", "max there", "most steps",
+    "category", "rule", "rays", "hit", "missed", "false", "wrong", "off", "in the band: missed", "band: false",
+    "band: wrong", "given up", "with a root", "rms", "median", "99.9 %", "max, ulp", "ill-conditioned", "max there",
+    "most steps",
 )  # fmt: skip
+
+
+COUNTS = HEADER[2:13]
+FAILED = slice(2, 6)  # of them: missed, false, wrong, off
 
 
 class Job(NamedTuple):
@@ -99,21 +104,27 @@ def judged_parts(job: Job, rules):
             yield rule, judged, steps, case
 
 
+def nothing() -> dict:
+    """What a rule has before its first batch."""
+    return {"counts": np.zeros(len(COUNTS), np.int64), "well": [], "ill": [], "most": 0, "worst": None}
+
+
 def run(job: Job) -> Result:
     """One batch through the golden model, both rules where it is its turn."""
     rules = ("certified", "paper") if job.number % PAPER_SHARE == 0 else ("certified",)
     out = {}
     for rule, j, steps, case in judged_parts(job, rules):
-        into = out.setdefault(rule, {"counts": np.zeros(9, np.int64), "well": [], "ill": [], "most": 0, "worst": None})
+        into = out.setdefault(rule, nothing())
         bad = [j.missed, j.false, j.wrong]
-        into["counts"] += [len(steps), j.hit.sum(), *((b & ~j.band).sum() for b in bad),
-                           *((b & j.band).sum() for b in bad), j.given_up.sum()]  # fmt: skip
+        outside, within = ([(b & where).sum() for b in bad] for where in (~j.band, j.band))
+        given_up = [j.given_up.sum(), (j.given_up & j.hit).sum()]
+        into["counts"] += [len(steps), j.hit.sum(), *outside, j.off.sum(), *within, *given_up]
         compared = ~np.isnan(j.error) & ~j.band
         into["well"].append(j.error[compared & j.well].astype(np.float32))
         into["ill"].append(j.error[compared & ~j.well].astype(np.float32))
         into["most"] = max(into["most"], int(steps.max(initial=0)))
-        # the worst case: a failure, else the largest error of a well-conditioned root, else of any
-        score = np.where(j.failed, 1e12, np.where(compared, j.error * np.where(j.well, 1e6, 1), -1.0))
+        # the worst case: a failure, else the largest error
+        score = np.where(j.failed, np.inf, np.where(compared, j.error, -1.0))
         i = int(np.argmax(score)) if len(score) else 0
         if len(score) and score[i] >= 0 and (into["worst"] is None or score[i] > into["worst"][0]):
             into["worst"] = float(score[i]), case(i)
@@ -134,7 +145,7 @@ def jobs(rays: int, seed: int, names, config: Config, shares=True) -> list[Job]:
 
 def collect(todo: list[Job], processes: int, quiet=False) -> dict:
     """Run all batches; (category, rule) -> joined results."""
-    joined = defaultdict(lambda: {"counts": np.zeros(9, np.int64), "well": [], "ill": [], "most": 0, "worst": None})
+    joined = defaultdict(nothing)
     with Progress(console=Console(stderr=True), disable=quiet) as progress:
         bar = progress.add_task("rays", total=sum(j.count for j in todo))
         size = {job.name: 0 for job in todo}
@@ -203,14 +214,14 @@ def main() -> int:
     rows += [total(joined, rule) for rule in ("certified", "paper")]
     left = ("category", "rule", "n1, K, W, D")
     show_table(f"n1 = 3, K = 8, W = 36, D = 4; seed {args.seed}", HEADER, rows, left, 240)
-    failed = sum(joined[name, "certified"]["counts"][2:5].sum() for name in names)
+    failed = sum(joined[name, "certified"]["counts"][FAILED].sum() for name in names)
     limit_rows = []
     if not args.only:
         for n1, steps, width, degree in LIMITS:
             config = Config(n1, steps, width, degree=degree, units=1)
             part = collect(jobs(args.rays // 40, args.seed, LIMIT_CATEGORIES, config, False), args.jobs, True)
             limit_rows.append([f"{n1}, {steps}, {width}, {degree}", *total(part, "certified")[1:]])
-            failed += sum(r["counts"][2:5].sum() for (_, rule), r in part.items() if rule == "certified")
+            failed += sum(r["counts"][FAILED].sum() for (_, rule), r in part.items() if rule == "certified")
         show_table("limits of the parameters", ("n1, K, W, D", *HEADER[1:]), limit_rows, left, 240)
     pictures = IMAGES if args.write else args.pictures
     if pictures:

@@ -63,12 +63,31 @@ def test_coordinates():
     assert below[4] == 0
 
 
-def test_dips():
-    """Pairs that were lost or added had f within the bound of the halving, some by several ulp."""
-    lost, added = checked(errors.dip_rows(3000, 1))
-    assert lost[2] > 50
-    assert added[2] > 50
-    assert min(lost[4], added[4]) > 0.5
+def test_roots():
+    """What was passed over, the cell found and t itself are within their bounds; in some rounding did decide."""
+    over, positive, other, error = checked(errors.root_rows(1500, 1))
+    assert over[2] > 100
+    assert over[4] > 0.5
+    assert positive[2] == other[2] > 10_000
+    assert positive[4] > 0.5
+    assert other[4] == 0
+    assert error[2] > 5_000
+    assert 0.5 < error[4] <= 2
+
+
+@pytest.mark.parametrize("change", ["lost", "moved"])
+def test_roots_would_be_refuted(monkeypatch, change):
+    """Hits that are taken away, or moved by three cells, are more than rounding does."""
+
+    def broken(segments, config):
+        t, steps = trace_segments(segments, config)
+        t[::7, 0] = -1 if change == "lost" else np.minimum(t[::7, 0] + 3, (1 << config.digits) - 1)
+        return t, steps
+
+    trace_segments = errors.trace_segments
+    monkeypatch.setattr(errors, "trace_segments", broken)
+    refuted = [bad for _, bad in errors.root_rows(300, 1)]
+    assert refuted[0] if change == "lost" else any(refuted[1:])
 
 
 def test_indicator():

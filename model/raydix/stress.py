@@ -13,12 +13,15 @@ from . import stress_polynomials, stress_rays
 from .chords import chord_items
 from .chords_spiral import Chords, Compiled, slopes
 from .config import Config
-from .error_bounds import coordinates, halving, resolution
+from .error_bounds import coordinates, halving
 from .exact import changes, extrema
 from .formats import COORD_FRAC, STEPS_MAX
+from .oracle_spiral import spiral_value
+from .rounding import bernstein, explained
 from .segments import Segments, whole
 from .stress_clip import CATEGORIES as CLIP
 
+SAMPLES = 65  # between two roots of a spiral
 WELL = 1.5  # ulp beyond its root within which f of a well-conditioned ray is lower than rounding reaches
 
 
@@ -27,11 +30,12 @@ class Judged(NamedTuple):
 
     hit, missed, false, wrong   (N) bool. missed: a root and nothing found; wrong: f turns between the first root and
           what was found, so that this belongs to another root
-    band    (N) bool, of those three: an extremum or end of f is so near to 0 that rounding may decide,
-          or two roots are less than an ulp apart
+    band    (N) bool, of those three: rounding explains it (`rounding.explained`), by f on what was passed over and at
+          the cell that was found
+    off     (N) bool, none of those three, but not explained, or a well-conditioned root that is off by more than 2 ulp
     error   (N) float64, ulp of t from the first exact root, nan where nothing is to be compared
     well    (N) bool, the first root is well-conditioned: rounding cannot move it by more than `WELL` ulp
-    given_up  (N) bool, no root found in as many steps as can be counted; none of missed, false, wrong
+    given_up  (N) bool, no root found in as many steps as can be counted: told, so none of missed, false, wrong
     """
 
     hit: np.ndarray
@@ -39,14 +43,15 @@ class Judged(NamedTuple):
     false: np.ndarray
     wrong: np.ndarray
     band: np.ndarray
+    off: np.ndarray
     error: np.ndarray
     well: np.ndarray
     given_up: np.ndarray
 
     @property
     def failed(self) -> np.ndarray:
-        """missed, false or wrong, outside of the band."""
-        return (self.missed | self.false | self.wrong) & ~self.band
+        """missed, false or wrong, outside of the band; or off."""
+        return (self.missed | self.false | self.wrong) & ~self.band | self.off
 
 
 def categories(degree: int) -> dict:
@@ -87,17 +92,6 @@ def resolved(exact: np.ndarray, digits: int) -> np.ndarray:
     return out
 
 
-def bernstein(b: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """Polynomials (N, degree + 1) at t (N), float64."""
-    degree = b.shape[1] - 1
-    total, power, binomial = np.zeros(len(b)), np.ones(len(b)), 1.0
-    for i in range(degree + 1):
-        total = total * (1 - t) + binomial * power * b[:, i]
-        power = power * t
-        binomial = binomial * (degree - i) / (i + 1)
-    return total
-
-
 def places(segments: Segments, exact: np.ndarray, digits: int) -> tuple[np.ndarray, np.ndarray]:
     """Whether each exact root (N, M) is certainly inside of the box, and whether it may be."""
     known = ~np.isnan(exact)
@@ -118,16 +112,14 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
     """First roots t (N) int64, -1 = none, against the changes of the words (N, degree + 1), computed if not given."""
     digits = config.digits
     ulp = 2.0**-digits
-    exact = changes(segments.b) if exact is None else exact
-    with np.errstate(invalid="ignore"):
-        together = (np.diff(exact, axis=1) < ulp).any(axis=1)
-    exact = resolved(exact, digits)
+    every = changes(segments.b) if exact is None else exact
+    exact = resolved(every, digits)
     sure, possible = places(segments, exact, digits)
     found, count = t >= 0, np.arange(len(t))
     first = np.where(sure.any(axis=1), sure.argmax(axis=1), exact.shape[1])
     allowed = possible & (np.arange(exact.shape[1]) <= first[:, None])
-    off = np.abs((t[:, None] + 0.5) - exact / ulp)
-    near = np.where(allowed, off, np.inf)
+    away = np.abs((t[:, None] + 0.5) - exact / ulp)
+    near = np.where(allowed, away, np.inf)
     which = near.argmin(axis=1)
     error = np.where(found & allowed.any(axis=1), near[count, which], np.nan)
     missed = sure.any(axis=1) & ~found
@@ -137,33 +129,58 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
     rounding = halving(config.n1, config.steps, config.degree)
     beyond = [bernstein(segments.b, np.clip(root + side * WELL * ulp, 0, 1)) for side in (-1, 1)]
     well = np.minimum(*beyond) <= -rounding
-    wrong, band = np.zeros((2, len(t)), bool)
-    high = max(resolution(digits, config.degree, config.width), 2.0**-10)
-    for i in np.flatnonzero(missed | false | (error > 2)):
-        b = segments.b[i].tolist()
-        peaks = extrema(b)
+    wrong = np.zeros(len(t), bool)
+    for i in np.flatnonzero(error > 2):
         low, top = sorted((root[i], (t[i] + 0.5) * ulp))
-        wrong[i] = error[i] > 2 and any(low < place < top for place, _ in peaks)
-        band[i] = together[i] or any(-rounding <= v <= high for v in (b[0], b[-1], *(v for _, v in peaks)))
+        wrong[i] = any(low < place < top for place, _ in extrema(segments.b[i].tolist()))
+    good = explained(segments, t, every, config)
+    bad = missed | false | wrong
+    off = ~bad & (~good | (well & (error > 2)))
     error = np.where(wrong, np.nan, error)
-    return Judged(sure.any(axis=1), missed, false, wrong, band, error, well, np.zeros(len(t), bool))
+    return Judged(sure.any(axis=1), missed, false, wrong, bad & good, off, error, well, np.zeros(len(t), bool))
 
 
 def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, clearance: np.ndarray, config: Config):
     """First roots of chords through a spiral against exact ones (N, M), nan-padded, with their clearance: Judged."""
     ulp = 2.0**-config.digits
     t, steps = found.t[:, 0], found.steps
-    hit, band = ~np.isnan(exact[:, 0]), clearance < compiled.epsilon
-    given_up = (t < 0) & (steps == STEPS_MAX)
-    off = np.abs((t[:, None] + 0.5) - exact / ulp)
-    error = np.where(hit & (t >= 0), off[:, 0], np.nan)
-    nearest = np.where(np.isnan(off), np.inf, off).argmin(axis=1)
+    hit, given_up = ~np.isnan(exact[:, 0]), (t < 0) & (steps == STEPS_MAX)
+    away = np.abs((t[:, None] + 0.5) - exact / ulp)
+    error = np.where(hit & (t >= 0), away[:, 0], np.nan)
+    nearest = np.where(np.isnan(away), np.inf, away).argmin(axis=1)
     length = np.linalg.norm(compiled.e - compiled.h, axis=1)
     slope = slopes(surface, compiled.h, compiled.e, np.where(hit, exact[:, 0], 0.0))
     well = compiled.epsilon <= WELL * ulp * length * slope
-    wrong = (nearest > 0) & (error > 64)
+    wrong = (nearest > 0) & (error > 64) | well & (error > 2)
     missed, false = hit & (t < 0) & ~given_up, ~hit & (t >= 0)
-    return Judged(hit, missed, false, wrong, band, np.where(wrong, np.nan, error), well, given_up)
+    bad = missed | false | wrong
+    # where the clearance is epsilon at least nothing can be explained
+    good = (clearance < compiled.epsilon) & spiral_passed(surface, compiled, t, exact, np.flatnonzero(bad), ulp)
+    cell = np.stack([spiral_value(surface, at(compiled, (t + k) * ulp)) for k in (0, 1)])
+    there = (cell.min(axis=0) <= compiled.epsilon) & (cell.max(axis=0) > -compiled.epsilon)
+    off = ~bad & (t >= 0) & ~there
+    good &= there | (t < 0)
+    return Judged(hit, missed, false, wrong, bad & good, off, np.where(wrong, np.nan, error), well, given_up)
+
+
+def at(compiled: Compiled, t: np.ndarray) -> np.ndarray:
+    """Points (N, 3) of the chords at t (N)."""
+    return compiled.h + t[:, None] * (compiled.e - compiled.h)
+
+
+def spiral_passed(surface, compiled: Compiled, t: np.ndarray, exact: np.ndarray, rows: np.ndarray, ulp: float):
+    """(N) bool, False only in ``rows``: the indicator stays above -epsilon, or below epsilon, on what was passed over.
+
+    It is sampled `SAMPLES` times between each two roots.
+    """
+    good = np.ones(len(t), bool)
+    for i in rows:
+        stop = 1.0 if t[i] < 0 else t[i] * ulp
+        marks = [0.0, *(r for r in exact[i] if r < stop), stop]
+        x = np.concatenate([np.linspace(a, b, SAMPLES) for a, b in zip(marks, marks[1:], strict=False)])
+        f = spiral_value(surface, compiled.h[i] + x[:, None] * (compiled.e[i] - compiled.h[i]))
+        good[i] = f.min() > -compiled.epsilon or f.max() < compiled.epsilon
+    return good
 
 
 def batches(make, count: int, config: Config, seed: int, size: int = 100_000) -> Iterator[Segments]:
