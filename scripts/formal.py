@@ -31,7 +31,7 @@ from rich.table import Table
 
 from formal_proofs import PROOFS
 from raydix.blocks import read_table, write_table
-from raydix.files import RTL, named, sources
+from raydix.files import RTL, named, sources, top_modules, top_sources
 from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
 HARNESSES = ROOT / "tb" / "formal"
@@ -75,7 +75,7 @@ def files(proof, change=None):
     Raises :class:`SynthError` where a replacement does not fit the source exactly once.
     """
     harnesses = {path.stem: path for path in sorted(HARNESSES.glob("*.sv"))}
-    paths = {path.stem: path for path in sources()}
+    paths = {path.stem: path for path in (top_sources() if proof.of in top_modules() else sources())}
     unused = {stem for stem in harnesses if stem in paths and stem not in proof.stand_ins}
     paths |= {stem: path for stem, path in harnesses.items() if stem not in unused}
     texts = {stem: path.read_text() for stem, path in paths.items()}

@@ -248,6 +248,18 @@ PROOFS = {
             ("rdx_pick", "control_o.t_next  = control_i.t;", "control_o.t_next  = control_i.t_next;"),
         ),
     ),
+    "settle": Proof(
+        "formal_settle",
+        "rdx_settle",
+        "an item hits, goes a level on, to its pending cell, or ends; it ends after as many steps as can be counted",
+        {"N1": 1, "K": 2, "W": 4, "D": 2},
+        "induction 5",
+        broken=(
+            ("rdx_settle", "else if (spent_q) control_d.status = Done;", ""),
+            ("rdx_settle", "control_qq.pending ? Again : Done", "Again"),
+            ("rdx_settle", "last_q && changes_q && !point_outside", "changes_q && !point_outside"),
+        ),
+    ),
     "outside": outside(0, ("left = left << (1 << (i - 1));", "left = left << (1 << i);")),
     "outside-faces": outside(1, ("boundaries_i[axis][j] > high_i[axis]", "boundaries_i[axis][j] >= high_i[axis]")),
     "fdiff": fdiff(64, 1, 2, 1),
@@ -306,6 +318,20 @@ PROOFS = {
     "paths-scan": paths("rdx_scan", {"D": 2, "Vector": 1}, WAITS),
     "stream-pixels": stream("rdx_pixels", {"Pixels": 2, "Depth": 16}, QUEUE, replace=HELD_COLUMN),
     "paths-pixels": paths("rdx_pixels", {"Pixels": 2, "Depth": 16}, AT_ONCE),
+    "stream-check": stream(
+        "rdx_check", {}, ("rdx_check", "else if (start_ready_i) start_valid_o", "else start_valid_o")
+    ),
+    "csr": Proof(
+        "formal_csr",
+        "rdx_csr",
+        "a request of the table waits for its answer; answers to the host and starts of frames keep the stream rules",
+        method="pdr",
+        broken=(
+            ("rdx_csr", "rd_ack: table_ack_i && !table_we_q", "rd_ack: table_req_o"),
+            ("rdx_csr", "wr_ack: table_ack_i && table_we_q", "wr_ack: 1'b1"),
+            ("rdx_check", "else if (start_ready_i) start_valid_o", "else start_valid_o"),
+        ),
+    ),
     "stream-core": stream("rdx_core", CORE, QUEUE, stand_ins=STAND_INS, replace=(SHORT,), depth=70),
     "ring": ring({"U": 1}, 0),
     "ring-time": ring({"U": 1}, 1),

@@ -23,7 +23,10 @@ HIDDEN, ROOTLESS, BEYOND = range(3)  # reasons
 
 
 async def cast(dut, random, frame, skips, share, stall, k_stop, pause):
-    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, bit of the row), items that ended)."""
+    """Cast all rows of a frame; (records, limits, pixels without a ray: (reason, bit of the row), items that ended).
+
+    steps_o adds up to the steps of the records, with and without vector sums; where none is built its ring is idle.
+    """
     dut.frame_i.value = walking.FRAME.pack(FRAME | dict.fromkeys(skips, 1) | {"k_stop": k_stop})
     limits, load, hit = (
         looks.Limits(dut, random, share),
@@ -33,7 +36,8 @@ async def cast(dut, random, frame, skips, share, stall, k_stop, pause):
     limits.depths = tuple(sorted(surface.words[2] & ((1 << DEPTH_WIDTH) - 1) for surface in frame.compiled.surfaces))
     found = [int(d) for hits in frame.surfaces for d in hits.depth[hits.t >= 0]]
     limits.depths = (0, *limits.depths, looks.FAR, *random.choices(found, k=12))
-    records, without, words, formed, ended, clock = [], [], [], None, 0, 0
+    records, without, words, formed, ended, steps, clock = [], [], [], None, 0, 0, 0
+    vectors = bench.parameter(dut, "Vecsum")
     for surface in frame.compiled.surfaces:
         for y in range(surface.rect[1], surface.rect[3] + 1):
             words += feeding.row([int(w) for w in surface.words], y, surface.is_vector_sum and formed is not surface)
@@ -56,11 +60,15 @@ async def cast(dut, random, frame, skips, share, stall, k_stop, pause):
         if dut.hit_valid_o.value == 1 and dut.hit_ready_i.value == 1:
             records.append(bench.HIT.unpack(hit.read()[0]))
         ended += int(dut.ended_o.value)
+        steps += int(dut.steps_o.value)
+        assert vectors or dut.vector_idle_o.value == 1
         skipped, rows = int(dut.skipped_o.value), int(dut.skipped_row_o.value)
         without += [(reason, rows >> 2 * reason & 3) for reason in range(3) if skipped >> reason & 1]
         quiet = 0 if words or dut.hit_valid_o.value == 1 or dut.idle_o.value == 0 else quiet + 1
         await FallingEdge(dut.clk_i)
         limits.answer(asked)
+    taken = sum(r["steps"] for r in records if r["last"])
+    assert steps == taken, f"steps_o adds up to {steps}, the records have {taken}"
     return records, limits, without, ended
 
 
