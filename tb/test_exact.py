@@ -118,3 +118,10 @@ def test_extrema():
         for t, v in extrema(row):
             beside = [float(Fraction(value(row, int((t + d) * 2**60), 60), 1 << 240)) for d in (-1e-3, 1e-3)]
             assert all(s > v for s in beside) or all(s < v for s in beside) or abs(beside[0] - v) < 1
+
+
+def test_a_root_far_outside():
+    """A root whose enclosure is wider than 2^-64, because it is large: it is not on the segment."""
+    b = [-2, -17179869184, 1, 17179869181, 0]
+    assert changes(np.array([b])).shape == (1, 5)
+    assert all(0 <= root.low <= 1 << 64 for root in roots(b))

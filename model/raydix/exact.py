@@ -75,6 +75,8 @@ def roots(b):
 
 def _place(b, enclosure):
     """floor(t * 2**64) of the only root in the enclosure, and whether it is that; None outside of [0, 1]."""
+    if enclosure < 0 or enclosure > 1:  # certainly outside, however wide
+        return None
     scaled = enclosure * flint.arb(2) ** BITS
     low, high = int(scaled.lower().floor().unique_fmpz()), int(scaled.upper().floor().unique_fmpz())
     if low == high:
