@@ -128,9 +128,8 @@ def ring(parameters, always, **rest):
 QUEUE = ("rdx_fifo", "wire advance = !valid_o || ready_i;", "wire advance = 1'b1;")
 
 
-BLOCK_FROM = (
-    4  # depth of a queue in a block RAM, in the proof: PDR does not end for 32 places, and the logic is the same
-)
+# Depth of a queue in a block RAM, in its proof: PDR does not end for 32 places, and the logic is the same.
+BLOCK_FROM = 4
 
 
 def fifo(depth, block=False):

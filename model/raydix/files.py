@@ -61,18 +61,18 @@ def named(tops: Iterable[str], texts: dict[str, str]) -> set[str]:
     return found
 
 
-def parts(top: str) -> tuple[list[Path], list[Path]]:
-    """The RTL files that the module ``top`` needs, itself among them, in the order of the list; what they include."""
-    files = {path.stem: path for path in (top_sources() if top in top_modules() else sources())}
+def parts(*tops: str) -> tuple[list[Path], list[Path]]:
+    """The RTL files that the modules ``tops`` need, they among them, in the order of the list; what they include."""
+    generated = any(top in top_modules() for top in tops)
+    files = {path.stem: path for path in (top_sources() if generated else sources())}
     headers = {path.name: path for path in sorted(RTL.glob("*.svh"))}
-    found = named([top], {name: path.read_text() for name, path in (files | headers).items()})
+    found = named(tops, {name: path.read_text() for name, path in (files | headers).items()})
     return [p for n, p in files.items() if n in found], [p for n, p in headers.items() if n in found]
 
 
 def reached(top: str) -> list[Path]:
-    """The RTL files that a bench of the module ``top`` needs, in the order of the list: its parts and the package."""
-    mine = {*parts(top)[0], *parts("rdx_pkg")[0]}  # the bins of every module may name the package
-    return [path for path in (top_sources() if top in top_modules() else sources()) if path in mine]
+    """The RTL files that a bench of the module ``top`` needs: its parts, and the package, which any bin may name."""
+    return parts(top, "rdx_pkg")[0]
 
 
 def environment() -> dict[str, str]:
