@@ -332,7 +332,7 @@ PROOFS = {
         ),
     ),
     # without vector sums, whose ports are those of stream-vector: their first hit would come after a hundred clocks
-    "stream-core": stream("rdx_core", CORE | {"Vecsum": 0}, QUEUE, stand_ins=STAND_INS, replace=(SHORT,), depth=70),
+    "stream-core": stream("rdx_core", CORE | {"Vecsum": 0}, QUEUE, stand_ins=STAND_INS, replace=(SHORT,), depth=110),
     "ring": ring({"U": 1}, 0),
     "ring-time": ring({"U": 1}, 1),
     "merge": Proof(
