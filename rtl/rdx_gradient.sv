@@ -90,7 +90,7 @@ module rdx_gradient #(
     wire unused_rst = rst_ni;
   end else begin : gen_quartic
     normal_t value[2];
-    normal_t gradient[2][3];
+    normal_t other[2][3];  // gradient of the other factor
     rdx_quadric #(
         .Surfaces(Surfaces),
         .Matrix  (AtQ1Matrix),
@@ -103,7 +103,7 @@ module rdx_gradient #(
         .material_i,
         .point_i(point_q),
         .value_o(value[0]),
-        .gradient_o(gradient[0])
+        .gradient_o(other[1])
     );
     rdx_quadric #(
         .Surfaces(Surfaces),
@@ -117,7 +117,7 @@ module rdx_gradient #(
         .material_i,
         .point_i(point_q),
         .value_o(value[1]),
-        .gradient_o(gradient[1])
+        .gradient_o(other[0])
     );
     logic [2:0][36:0] waiting;
     rdx_line #(
@@ -135,7 +135,7 @@ module rdx_gradient #(
       logic signed [36:0] both_q;
       logic signed [37:0] sum_q;
       always_ff @(posedge clk_i) begin
-        for (int unsigned i = 0; i < 2; i++) parts_q[i] <= product_t'(value[i]) * product_t'(gradient[1-i][axis]);
+        for (int unsigned i = 0; i < 2; i++) parts_q[i] <= product_t'(value[i]) * product_t'(other[i][axis]);
         both_q <= 37'(parts_q[0]) + 37'(parts_q[1]);
         sum_q  <= 38'($signed({both_q, 1'b0})) + 38'($signed(waiting[axis]));
       end

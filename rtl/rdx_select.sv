@@ -8,8 +8,8 @@
 //
 // Formats    cells_i: J*D+1 control points, sWp0, cell j at [j*D +: D+1]; with Below = 1 less by one, so that the sign tells
 //            whether one is positive. Masks have bit j for cell j.
-//            pick_o, next_o: numbers of the first two candidates, valid where found_o, more_o; pick_o = 0
-//            where there is none.
+//            pick_o, next_o: numbers of the first two candidates, valid where found_o, more_o; 0 where
+//            there is none.
 // Timing     latency rdx_pkg::select_latency(N1, Rules) clocks, one choice a clock; no reset, no stall.
 // Model      model/raydix/select.py
 `default_nettype none

@@ -112,8 +112,8 @@ def ring(parameters, always, **rest):
         broken = (
             (
                 "rdx_ring",
-                "end else if (wrap_q.status == Again) begin",
-                "end else if (wrap_q.status == Again && take) begin",
+                "if (take || wrap_q.status == Again) {enter_q.status, enter_q.level} <=",
+                "if (take) {enter_q.status, enter_q.level} <=",
             ),
         )
     values = parameters | {"Always": always}

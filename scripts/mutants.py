@@ -23,6 +23,7 @@ from raydix.blocks import read_table, write_table  # noqa: E402
 EQUIVALENT = ROOT / "tb" / "mutants.toml"
 PAGE = ROOT / "docs" / "mutants.md"
 SLOW = ["ring", "step", "algebraic", "ends", "sample", "lanes", "vecsum", "vector", "core"]  # these come last
+WHOLE = ("select", "halve", "ring")  # all mutants of these, always: the heart of the descent
 
 KINDS = ("check", "assertion", "timeout")
 HEADER = [
@@ -72,7 +73,7 @@ def row(name, everything, outcomes, equal):
 def module(name, args, progress, known):
     """Mutate one module. Returns its row, the survivors, and listed mutants that a test has killed."""
     tests, everything, runs = work.prepare(name, args.kept)
-    wanted = everything if args.all else schema.choose(everything, args.count, name)
+    wanted = everything if args.all or name in WHOLE else schema.choose(everything, args.count, name)
     if args.mutant:
         wanted = [m for m in everything if m.number in args.mutant]
         if missing := set(args.mutant) - {m.number for m in wanted}:
@@ -113,7 +114,8 @@ def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("modules", nargs="*", help="names without rdx_ (default: all)")
-    parser.add_argument("--count", type=int, default=45, help="mutants of each module, at most (default: 45)")
+    count_help = f"mutants of each module, at most (default: 45; of {', '.join(WHOLE)} all)"
+    parser.add_argument("--count", type=int, default=45, help=count_help)
     parser.add_argument("--all", action="store_true", help="all mutants that the operators make")
     parser.add_argument("--mutant", type=int, action="append", help="only this one, of one module")
     parser.add_argument("--list", action="store_true", help="print the mutants, run nothing")

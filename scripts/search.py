@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tb" / "cases.toml"
 HEADER = ("search", "generations", "rays tried", "of the first", "found")
 KEPT = 8  # cases of each search that are written
+ALIKE = 0.9999  # cosine of the angle between two items' coefficients that count as the same case
 FIELDS = ("R", "r", "pitch", "turns", "R_growth", "r_growth")
 
 
@@ -62,6 +63,16 @@ def steps_score(b: np.ndarray, config: Config) -> np.ndarray:
     return trace_segments(Segments(b, whole(len(b))), config)[1].astype(float)
 
 
+def apart(b: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Numbers of the `KEPT` best items, no two of which have nearly the same direction of their coefficients."""
+    direction = b / np.maximum(np.linalg.norm(b.astype(float), axis=1, keepdims=True), 1)
+    kept: list[int] = []
+    for i in np.argsort(-s, kind="stable"):
+        if len(kept) < KEPT and (direction[kept] @ direction[i] < ALIKE).all():
+            kept.append(int(i))
+    return np.array(kept)
+
+
 def evolve(
     score, config: Config, generations: int, count: int, seed: int, tick
 ) -> tuple[np.ndarray, np.ndarray, float]:
@@ -77,45 +88,77 @@ def evolve(
         fresh = children(dice, b[best], count - len(best), config)
         b, s = np.concatenate([b[best], fresh]), np.concatenate([s[best], score(fresh, config)])
         tick()
-    _, unique = np.unique(b, axis=0, return_index=True)
-    best = unique[np.argsort(-s[unique], kind="stable")][:KEPT]
+    best = apart(b, s)
     return b[best], s[best], begin
 
 
-def evolve_spiral(generations: int, count: int, seed: int, tick):
-    """Chords of the most steps through the spirals of all categories: [(surface, h, e, steps)], and the first most."""
-    dice, kept, begin = np.random.default_rng(seed), [], 0
-    for name in ("spiral, tip near the axis", "spiral, grazing", "spiral, along its axis"):
+def spiral_steps(surface, h, e) -> np.ndarray:
+    """Steps to the first root of chords or to none."""
+    config = spiral_config(surface)
+    return trace_spiral(compile_chords(surface, h, e, config), config).steps
+
+
+def spiral_error(surface, h, e) -> np.ndarray:
+    """Error of well-conditioned first roots of chords, as `error_score`."""
+    judged = judge_chords(surface, h, e)
+    good = judged.well & ~judged.band & ~np.isnan(judged.error)
+    return np.where(judged.failed, np.inf, np.where(good, np.nan_to_num(judged.error), 0.0))
+
+
+def spiral_config(surface) -> Config:
+    """The reference configuration of a spiral."""
+    return Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
+
+
+def judge_chords(surface, h, e) -> stress.Judged:
+    """What the oracle says of the golden model's first roots."""
+    config = spiral_config(surface)
+    compiled = compile_chords(surface, h, e, config)
+    exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
+    return stress.judge_spiral(surface, compiled, trace_spiral(compiled, config), exact, clearance, config)
+
+
+def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
+    """Chords of the highest score through a spiral of each category: [(surface, h, e, score)], and the first best."""
+    dice, kept, begin = np.random.default_rng(seed), [], 0.0
+    for name in names:
         for surface, h, e in stress_spirals.CATEGORIES[name](dice, stress_spirals.SHARE):
-            config = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
             h, e = h[:count], e[:count]
             size = float(np.linalg.norm(e - h, axis=1).max())
-            s = trace_spiral(compile_chords(surface, h, e, config), config).steps
-            begin = max(begin, int(s.max()))
+            s = score(surface, h, e)
+            begin = max(begin, float(s.max()))
             for _ in range(generations):
                 best = np.argsort(-s, kind="stable")[: max(1, count // 10)]
                 parents = dice.choice(best, count - len(best))
                 scale = size * 2.0 ** -dice.uniform(4, 28, (2, len(parents), 1))
                 off = dice.normal(size=(2, len(parents), 3)) * scale
-                h = np.concatenate([h[best], h[parents] + off[0]])
-                e = np.concatenate([e[best], e[parents] + off[1]])
-                s = trace_spiral(compile_chords(surface, h, e, config), config).steps
+                fresh = h[parents] + off[0], e[parents] + off[1]
+                h, e = np.concatenate([h[best], fresh[0]]), np.concatenate([e[best], fresh[1]])
+                s = np.concatenate([s[best], score(surface, *fresh)])
                 tick()
             i = int(np.argmax(s))
-            kept.append((surface, h[i], e[i], int(s[i])))
+            kept.append((surface, h[i], e[i], float(s[i])))
     return sorted(kept, key=lambda case: -case[3]), begin
 
 
-def toml(items: dict, spirals: list) -> str:
+def toml(items: dict, spirals: dict) -> str:
     """The directed cases as a TOML document."""
     lines = ["# SPDX-License-Identifier: Apache-2.0", "# Worst rays found by `make search`; run by tb/test_search.py."]
     for name, (b, s) in items.items():
         for row, value in zip(b.tolist(), s.tolist(), strict=True):
             lines += ["", "[[item]]", f'search = "{name}"', f"b = {row}", f"found = {value!r}"]
-    for surface, h, e, steps in spirals:
-        lines += ["", "[[spiral]]", f"h = {h.tolist()}", f"e = {e.tolist()}", f"found = {steps}"]
-        lines += [f"{key} = {float(getattr(surface, key))!r}" for key in FIELDS]
+    for name, kept in spirals.items():
+        for surface, h, e, value in kept:
+            lines += ["", "[[spiral]]", f'search = "{name}"', f"h = {h.tolist()}", f"e = {e.tolist()}"]
+            lines += [f"found = {value!r}", *(f"{key} = {float(getattr(surface, key))!r}" for key in FIELDS)]
     return "\n".join(lines) + "\n"
+
+
+# score of the chords, and the categories whose first spiral is searched
+SPIRALS = {
+    "error": (spiral_error, ("any chord through any spiral", "thin spiral", "spiral, turns nearly touch")),
+    "steps": (spiral_steps, ("spiral, tip near the axis", "spiral, grazing", "spiral, along its axis")),
+}
 
 
 def load_cases() -> dict:
@@ -141,20 +184,20 @@ def main() -> int:
             items[name] = b, s
             tried = args.generations * (args.rays - args.rays // 10) + args.rays
             rows.append([f"algebraic: most {name}", str(args.generations), f"{tried:,}", f"{begin:.3f}", f"{s[0]:.3f}"])
-        bar = progress.add_task("spirals", total=None)
         few = max(1, args.generations // 5)
-        spirals, begin = evolve_spiral(few, args.rays // 100, args.seed, lambda: progress.advance(bar))
-    rows.append(
-        ["spirals: most steps", str(few), f"{few * args.rays // 100 * len(spirals):,}", f"{begin}", f"{spirals[0][3]}"]
-    )
-    spirals = spirals[:KEPT]
+        spirals = {}
+        for name, (score, names) in SPIRALS.items():
+            bar = progress.add_task(f"spirals: {name}", total=few * len(names))
+            count = max(10, args.rays // 100)
+            spirals[name], begin = evolve_spiral(
+                score, names, few, count, args.seed, lambda bar=bar: progress.advance(bar)
+            )
+            tried = len(names) * (few * (count - count // 10) + count)
+            most = spirals[name][0][3]
+            rows.append([f"spirals: most {name}", str(few), f"{tried:,}", f"{begin:.3f}", f"{most:.3f}"])
     failed = not np.isfinite(items["error"][1]).all()
-    for surface, h, e, _ in spirals:
-        compiled = compile_chords(surface, h[None], e[None], config)
-        c = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
-        exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
-        judged = stress.judge_spiral(surface, compiled, trace_spiral(compiled, c), exact, clearance, c)
-        failed |= bool(judged.failed.any())
+    for surface, h, e, _ in (case for kept in spirals.values() for case in kept):
+        failed |= bool(judge_chords(surface, h[None], e[None]).failed.any())
     show_table(f"search, seed {args.seed}", HEADER, rows, ("search",), 120)
     if args.write:
         CASES.write_text(toml(items, spirals))

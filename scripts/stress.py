@@ -13,7 +13,7 @@ import numpy as np
 from rich.console import Console
 from rich.progress import Progress
 
-from raydix import stress, stress_spirals
+from raydix import stress, stress_polynomials, stress_spirals
 from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import compile_chords, trace_spiral
 from raydix.compile_spiral import Oversize, needs_general
@@ -31,7 +31,7 @@ BATCH = 20_000
 SLOW = {
     "tangent", "near-tangent, 2^-8 to 2^-40", "triple and quadruple roots", "two close roots in a cell",
     "roots in neighbouring cells", "as many roots as the degree", "saturating coefficients", "apex of a cone",
-    "thin torus", "grazing", "clip faces through the silhouette", "root at 0 and at 1-",
+    "torus, 10^-6 to 10^6 units", "thin torus", "grazing", "clip faces through the silhouette", "root at 0 and at 1-",
 }  # fmt: skip
 SPIRAL_SHARE, SLOW_SHARE, PAPER_SHARE = 0.1, 0.15, 5  # of the paper rule: every fifth batch
 LIMITS = ((1, 32, 36, 4), (2, 16, 48, 4), (4, 8, 40, 4), (3, 10, 36, 4), (4, 1, 36, 4), (1, 1, 16, 4), (3, 8, 36, 2))
@@ -39,6 +39,9 @@ LIMIT_CATEGORIES = (
     "any coefficients", "root on a boundary, each level", "root at 0 and at 1-", "near-tangent, 2^-8 to 2^-40",
     "two close roots in a cell", "roots in neighbouring cells", "saturating coefficients",
 )  # fmt: skip
+# and of spirals, which have no W and D
+SPIRAL_LIMITS = ((1, 32), (2, 16), (4, 8), (3, 10), (4, 1), (1, 1))
+SPIRAL_LIMIT_CATEGORIES = ("any chord through any spiral", "thin spiral", "spiral, seam of tube and ball")
 HEADER = (
     "category", "rule", "rays", "hit", "missed", "false", "wrong", "off", "in the band: missed", "band: false",
     "band: wrong", "given up", "with a root", "rms", "median", "99.9 %", "max, ulp", "ill-conditioned", "max there",
@@ -89,7 +92,8 @@ def judged_parts(job: Job, rules):
 
                 yield rule, judged, found.steps, case
         return
-    for part in stress.categories(job.config.degree)[job.name](dice, job.count, job.config):
+    each = job.name in stress_polynomials.EACH
+    for part in stress.categories(job.config.degree, each)[job.name](dice, job.count, job.config):
         exact = changes(part.b)
         for rule in rules:
             config = job.config.with_(rule=rule)
@@ -192,6 +196,11 @@ def total(joined: dict, rule: str) -> list[str]:
     })  # fmt: skip
 
 
+def failures(joined: dict) -> int:
+    """Rays on which the certified rule failed outside of the band."""
+    return sum(int(r["counts"][FAILED].sum()) for (_, rule), r in joined.items() if rule == "certified")
+
+
 def main() -> int:
     """Command line; exit status 1 where the certified rule failed outside of the documented band."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -214,14 +223,22 @@ def main() -> int:
     rows += [total(joined, rule) for rule in ("certified", "paper")]
     left = ("category", "rule", "n1, K, W, D")
     show_table(f"n1 = 3, K = 8, W = 36, D = 4; seed {args.seed}", HEADER, rows, left, 240)
-    failed = sum(joined[name, "certified"]["counts"][FAILED].sum() for name in names)
-    limit_rows = []
+    failed = failures(joined)
+    limit_rows, each_rows = [], []
     if not args.only:
-        for n1, steps, width, degree in LIMITS:
-            config = Config(n1, steps, width, degree=degree, units=1)
-            part = collect(jobs(args.rays // 40, args.seed, LIMIT_CATEGORIES, config, False), args.jobs, True)
-            limit_rows.append([f"{n1}, {steps}, {width}, {degree}", *total(part, "certified")[1:]])
-            failed += sum(r["counts"][FAILED].sum() for (_, rule), r in part.items() if rule == "certified")
+        few = max(1, args.rays // 40)
+        each = list(stress_polynomials.EACH)
+        part = collect(jobs(few, args.seed, each, reference, False), args.jobs, True)
+        each_rows = [cells(name, rule, part[name, rule]) for rule in ("certified", "paper") for name in each]
+        failed += failures(part)
+        show_table("each level, each distance", HEADER, each_rows, left, 240)
+        limits = [(Config(*n1_k_w, degree=degree, units=1), LIMIT_CATEGORIES, few) for *n1_k_w, degree in LIMITS]
+        limits += [(Config(*n1_k, units=1), SPIRAL_LIMIT_CATEGORIES, max(1, few // 10)) for n1_k in SPIRAL_LIMITS]
+        for config, names, count in limits:
+            part = collect(jobs(count, args.seed, names, config, False), args.jobs, True)
+            words = f"{config.width}, {config.degree}" if names is LIMIT_CATEGORIES else "spirals"
+            limit_rows.append([f"{config.n1}, {config.steps}, {words}", *total(part, "certified")[1:]])
+            failed += failures(part)
         show_table("limits of the parameters", ("n1, K, W, D", *HEADER[1:]), limit_rows, left, 240)
     pictures = IMAGES if args.write else args.pictures
     if pictures:
@@ -232,6 +249,7 @@ def main() -> int:
                 plot_cases(pictures / file, [(n, worst[1]) for n, worst in cases], reference)
     if args.write:
         write_table(PAGE, "stress", HEADER, rows)
+        write_table(PAGE, "each", HEADER, each_rows)
         write_table(PAGE, "limits", ("n1, K, W, D", *HEADER[1:]), limit_rows)
     if failed:
         print(f"stress: the certified rule failed on {failed} rays outside of the band", file=sys.stderr)

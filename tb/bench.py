@@ -37,12 +37,14 @@ WAVES = ROOT / "build" / "waves"
 # Registers begin with random values, of the run's seed; what the source leaves open is random, too.
 BUILD_ARGUMENTS = ["--assert", "--x-initial", "unique", "--x-assign", "unique"]
 
-# Verilator's runtime and its headers are compiled once and used by every bench. The rest is two small files, most of them
-# headers: compiling them at -O0 costs less than a faster simulation would save. MAKEFLAGS, because the packaged verilated.mk
-# lacks the flag for precompiled headers. g++ takes runtime.h.fast.gch in place of runtime.h.fast where the other flags are the same.
+# Verilator's runtime and its headers are compiled once and used by every bench. The rest is two small files, most of
+# them headers: compiling them at -O0 costs less than a faster simulation would save. MAKEFLAGS, because the packaged
+# verilated.mk lacks the flag for precompiled headers. g++ takes runtime.h.fast.gch in place of runtime.h.fast where the
+# other flags are the same.
 HEADERS = "runtime.h"
-MAKE_VARIABLES = rf"CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_SLOW=-O0 OPT_FAST=-O0\ -include\ {HEADERS}.fast"
-INCLUDES = "".join(f"#include <{name}>\n" for name in ("verilated.h", "verilated_vpi.h", "iostream", "memory", "sstream"))
+OPTIONS = rf"-O0\ -include\ {HEADERS}.fast"
+MAKE_VARIABLES = f"CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_SLOW=-O0 OPT_FAST={OPTIONS}"
+INCLUDES = "".join(f"#include <{h}>\n" for h in ("verilated.h", "verilated_vpi.h", "iostream", "memory", "sstream"))
 
 
 # ---------------------------------------------------------------- outside of the simulator
@@ -104,7 +106,8 @@ def build(toplevel, parameters, waves=None):
             tail = "\n".join(log.read_text().splitlines()[-15:])
             raise RuntimeError(f"{toplevel} {parameters} does not build; log: {log}\n{tail}") from error
         if not runtime.exists():
-            subprocess.run(["make", "-sC", str(work), "-f", "Vtop.mk", "OPT_FAST=-O0", f"{HEADERS}.fast.gch"], check=True)
+            call = ["make", "-s", "-C", str(work), "-f", "Vtop.mk", "OPT_FAST=-O0", f"{HEADERS}.fast.gch"]
+            subprocess.run(call, check=True)
         for name, files in ((runtime, [*work.glob("verilated*.o"), *work.glob("*.gch")]), (target, [work / toplevel])):
             place = Path(folder, name.name)
             place.mkdir()

@@ -224,7 +224,7 @@ EVERY += ["full_queues_lose_nothing", f"hidden_pixels_have_no_ray/scene={spirals
 
 
 def test_cast():
-    """Quartics, quadrics and spirals; all but the helices, which a simulation without quartics does in a tenth of the time."""
+    """Quartics, quadrics and spirals; not the helices, for which one without quartics takes a tenth of the time."""
     bench.run(__name__, "rdx_cast", parameters(CONFIG), EVERY)
 
 

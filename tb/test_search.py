@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 
 from raydix import stress
-from raydix.chords_spiral import compile_chords, trace_spiral
-from raydix.compile_spiral import needs_general
 from raydix.config import Config
 from raydix.formats import STEPS_MAX
-from raydix.oracle_spiral import spiral_chord_roots
 from raydix.scene import Spiral
 from raydix.segments import Segments, trace_segments, whole
 
@@ -35,18 +32,27 @@ def test_items():
     assert not stress.judge(segments, trace_segments(segments, CONFIG)[0][:, 0], CONFIG).failed.any()
 
 
-@pytest.mark.parametrize("case", CASES["spiral"], ids=lambda c: str(c["found"]))
+@pytest.mark.parametrize("case", CASES["spiral"], ids=lambda c: f"{c['search']}={c['found']:g}")
 def test_spirals(case):
-    """No failure, no more steps than when it was found; given up only where it was then."""
+    """No failure, the same error, no more steps than when it was found; given up only where it was then."""
     surface = Spiral(type="spiral", **{key: case[key] for key in search.FIELDS})
-    config = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
-    compiled = compile_chords(surface, np.array([case["h"]]), np.array([case["e"]]), config)
-    found = trace_spiral(compiled, config)
-    exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
-    judged = stress.judge_spiral(surface, compiled, found, exact, clearance, config)
+    chord = surface, np.array([case["h"]]), np.array([case["e"]])
+    judged = search.judge_chords(*chord)
     assert not judged.failed.any()
-    assert case["found"] == STEPS_MAX or not judged.given_up.any()
-    assert found.steps[0] <= case["found"]
+    if case["search"] == "error":
+        assert search.spiral_error(*chord)[0] == pytest.approx(case["found"], rel=1e-6)
+    else:
+        assert case["found"] == STEPS_MAX or not judged.given_up.any()
+        assert search.spiral_steps(*chord)[0] <= case["found"]
+
+
+def test_cases_are_apart():
+    """No case of a search is nearly another one, and a doubled item is kept once."""
+    for name in ("error", "steps"):
+        b = np.array([case["b"] for case in CASES["item"] if case["search"] == name], np.int64)
+        assert len(search.apart(b, np.ones(len(b)))) == len(b) == search.KEPT
+    b = np.array([[100, -3, 5], [101, -3, 5], [1, 90, 5]])
+    assert search.apart(b, np.array([1.0, 2.0, 0.5])).tolist() == [1, 2]
 
 
 def test_search_climbs():

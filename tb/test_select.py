@@ -73,8 +73,8 @@ async def equal(dut, items):
         mask = candidates(item["cells_i"], item["excluded_i"], last, by_paper, degree, n1, possible)
         pick, following = first_two(mask)
         outputs = {"found_o": pick is not None, "more_o": following is not None}
-        # without a candidate the item keeps the start of its cell
-        return outputs | {"pick_o": [pick or 0], "next_o": [following]}
+        # without a candidate the item keeps the start of its cell; what does not exist is 0
+        return outputs | {"pick_o": [pick or 0], "next_o": [following or 0]}
 
     await bench.start(dut)
     items = (less(item, below) for item in items if least + below <= min(item["cells_i"]))

@@ -54,8 +54,11 @@ class Judged(NamedTuple):
         return (self.missed | self.false | self.wrong) & ~self.band | self.off
 
 
-def categories(degree: int) -> dict:
-    """Names of the categories of algebraic items -> function of (Generator, count, Config) that yields Segments."""
+def categories(degree: int, each: bool = False) -> dict:
+    """Names of the categories of algebraic items -> function of (Generator, count, Config) that yields Segments.
+
+    each   those that are one level or one distance of another one
+    """
 
     def words(make):
         def items(dice, count, config):
@@ -71,8 +74,9 @@ def categories(degree: int) -> dict:
 
         return items
 
-    named = {name: words(make) for name, make in stress_polynomials.CATEGORIES.items()}
-    if degree == 4:  # some of the surfaces are quartics
+    polynomials = stress_polynomials.EACH if each else stress_polynomials.CATEGORIES
+    named = {name: words(make) for name, make in polynomials.items()}
+    if degree == 4 and not each:  # some of the surfaces are quartics
         named |= {name: rays(make) for name, make in stress_rays.CATEGORIES.items()} | CLIP
     return named
 
@@ -143,6 +147,7 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
 def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, clearance: np.ndarray, config: Config):
     """First roots of chords through a spiral against exact ones (N, M), nan-padded, with their clearance: Judged."""
     ulp = 2.0**-config.digits
+    every, exact = exact, resolved(exact, config.digits)
     t, steps = found.t[:, 0], found.steps
     hit, given_up = ~np.isnan(exact[:, 0]), (t < 0) & (steps == STEPS_MAX)
     away = np.abs((t[:, None] + 0.5) - exact / ulp)
@@ -155,7 +160,8 @@ def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, 
     missed, false = hit & (t < 0) & ~given_up, ~hit & (t >= 0)
     bad = missed | false | wrong
     # where the clearance is epsilon at least nothing can be explained
-    good = (clearance < compiled.epsilon) & spiral_passed(surface, compiled, t, exact, np.flatnonzero(bad), ulp)
+    passed = spiral_passed(surface, compiled, t, every, np.flatnonzero(bad), config.digits)
+    good = (clearance < compiled.epsilon) & passed
     cell = np.stack([spiral_value(surface, at(compiled, (t + k) * ulp)) for k in (0, 1)])
     there = (cell.min(axis=0) <= compiled.epsilon) & (cell.max(axis=0) > -compiled.epsilon)
     off = ~bad & (t >= 0) & ~there
@@ -168,18 +174,21 @@ def at(compiled: Compiled, t: np.ndarray) -> np.ndarray:
     return compiled.h + t[:, None] * (compiled.e - compiled.h)
 
 
-def spiral_passed(surface, compiled: Compiled, t: np.ndarray, exact: np.ndarray, rows: np.ndarray, ulp: float):
+def spiral_passed(surface, compiled: Compiled, t: np.ndarray, every: np.ndarray, rows: np.ndarray, digits: int):
     """(N) bool, False only in ``rows``: the indicator stays above -epsilon, or below epsilon, on what was passed over.
 
-    It is sampled `SAMPLES` times between each two roots.
+    It is sampled `SAMPLES` times between each two roots that a cell of the last level does not hide (`resolved`), and
+    not in the cells that hide some.
     """
-    good = np.ones(len(t), bool)
+    good, exact = np.ones(len(t), bool), resolved(every, digits)
     for i in rows:
-        stop = 1.0 if t[i] < 0 else t[i] * ulp
+        stop = 1.0 if t[i] < 0 else t[i] * 2.0**-digits
         marks = [0.0, *(r for r in exact[i] if r < stop), stop]
         x = np.concatenate([np.linspace(a, b, SAMPLES) for a, b in zip(marks, marks[1:], strict=False)])
+        hidden = np.setdiff1d(every[i], exact[i]) * 2.0**digits  # nan among them hides nothing
+        x = x[~np.isin(np.floor(x * 2.0**digits), np.floor(hidden))]
         f = spiral_value(surface, compiled.h[i] + x[:, None] * (compiled.e[i] - compiled.h[i]))
-        good[i] = f.min() > -compiled.epsilon or f.max() < compiled.epsilon
+        good[i] = len(f) == 0 or f.min() > -compiled.epsilon or f.max() < compiled.epsilon
     return good
 
 

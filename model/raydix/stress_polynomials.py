@@ -6,6 +6,7 @@ Each function takes a numpy Generator, the number of polynomials and their degre
 them. What the roots of the words are the exact oracle says: rounding may move them.
 """
 
+from functools import partial
 from math import comb
 
 import numpy as np
@@ -73,9 +74,9 @@ def anything(dice, count, degree):
     return dice.normal(size=(count, degree + 1)) * 2.0 ** dice.uniform(-20, 0, (count, degree + 1))
 
 
-def boundaries(dice, count, degree):
-    """A root exactly on a boundary of each level: an odd multiple of 2^-1 … 2^-24."""
-    bits = dice.integers(1, DIGITS + 1, count)
+def boundaries(dice, count, degree, first=1, last=DIGITS):
+    """A root exactly on a boundary of each level: an odd multiple of 2^-first … 2^-last."""
+    bits = dice.integers(first, last + 1, count)
     return times(dyadic(dice, count, bits), _rest(dice, count, degree - 1, np.maximum(29 - bits, 3)))
 
 
@@ -104,14 +105,14 @@ def _sign(dice, count):
     return dice.choice([-1, 1], (count, 1))
 
 
-def near_tangent(dice, count, degree):
-    """A double root split or lifted by 2^-8 … 2^-40 of the largest coefficient."""
+def near_tangent(dice, count, degree, most=8, least=40):
+    """A double root split or lifted by 2^-most … 2^-least of the largest coefficient."""
     root = dice.random((count, 1))
     b = through(np.concatenate([root, root], axis=1))
     if degree > 2:
         b = times(b, 0.2 + dice.random((count, degree - 1)))
     b /= np.abs(b).max(axis=1, keepdims=True)
-    return (b + _sign(dice, count) * 2.0 ** -dice.uniform(8, 40, (count, 1))) * _sign(dice, count)
+    return (b + _sign(dice, count) * 2.0 ** -dice.uniform(most, least, (count, 1))) * _sign(dice, count)
 
 
 def multiple(dice, count, degree):
@@ -173,3 +174,7 @@ CATEGORIES = {
     "as many roots as the degree": many,
     "saturating coefficients": extremes,
 }
+
+# Two categories one by one: the boundaries of each of the reference configuration's 8 levels, distances 2^-8 … 2^-40
+EACH = {f"root on a boundary of level {i + 1}": partial(boundaries, first=3 * i + 1, last=3 * i + 3) for i in range(8)}
+EACH |= {f"near-tangent, 2^-{k}": partial(near_tangent, most=k, least=k) for k in range(8, 41, 4)}

@@ -187,6 +187,21 @@ def scales(dice, count):
     return _parts(dice, count, make)
 
 
+def quartic_scales(dice, count):
+    """Tori of 10^-6 to 10^6 units, segments 10^-2 to 10^6 times as long as they are large."""
+
+    def make(n):
+        R = 10.0 ** dice.uniform(-6, 6)
+        r = R * dice.uniform(0.05, 0.95)
+        turn, tilt = dice.uniform(0, 2 * np.pi, (2, n))
+        off = r * dice.uniform(0, 1.2, n)
+        ring = R + off * np.cos(tilt)
+        points = np.stack([ring * np.cos(turn), ring * np.sin(turn), off * np.sin(tilt)], axis=1)
+        return _surface("torus", R=R, r=r), *_about(dice, points, R * 10.0 ** dice.uniform(-2, 6))
+
+    return _parts(dice, count, make)
+
+
 def thin(dice, count):
     """Thin torus: a tube of 10^-1 to 10^-6 of the ring."""
 
@@ -237,6 +252,7 @@ CATEGORIES = {
     "zero direction components": parallel,
     "eye inside": inside,
     "scale ratios 10^-6 to 10^6": scales,
+    "torus, 10^-6 to 10^6 units": quartic_scales,
     "thin torus": thin,
     "grazing": grazing,
 }
