@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tb" / "cases.toml"
 HEADER = ("search", "generations", "rays tried", "of the first", "found")
 KEPT = 8  # cases of each search that are written
+ALONE = 20  # chords of the last generation that are compiled one by one
 ALIKE = 0.9999  # cosine of the angle between two items' coefficients that count as the same case
 FIELDS = ("R", "r", "pitch", "turns", "R_growth", "r_growth")
 
@@ -136,8 +137,11 @@ def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
                 h, e = np.concatenate([h[best], fresh[0]]), np.concatenate([e[best], fresh[1]])
                 s = np.concatenate([s[best], score(surface, *fresh)])
                 tick()
-            i = int(np.argmax(s))
-            kept.append((surface, h[i], e[i], float(s[i])))
+            # alone a chord has another unit: what it scores then is what its case keeps
+            best = np.argsort(-s, kind="stable")[:ALONE]
+            alone = [float(score(surface, h[i : i + 1], e[i : i + 1])[0]) for i in best]
+            i = best[int(np.argmax(alone))]
+            kept.append((surface, h[i], e[i], max(alone)))
     return sorted(kept, key=lambda case: -case[3]), begin
 
 

@@ -15,7 +15,6 @@ import secrets
 import shutil
 import subprocess
 import tempfile
-import time
 import warnings
 from importlib.metadata import version
 from pathlib import Path
@@ -28,7 +27,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, ReadOnly, Timer
 
 import second
-from raydix import coverpoints, formats
+from raydix import coverpoints, formats, runtime
 from raydix.files import GENERATED_CONTROL, ROOT, RTL, TRACE_CONTROL, environment, has_fst, reached, top_modules
 
 BUILD = ROOT / "build" / "tb"
@@ -37,14 +36,11 @@ WAVES = ROOT / "build" / "waves"
 # Registers begin with random values, of the run's seed; what the source leaves open is random, too.
 BUILD_ARGUMENTS = ["--assert", "--x-initial", "unique", "--x-assign", "unique"]
 
-# Verilator's runtime and its headers are compiled once and used by every bench. The rest is two small files, most of
-# them headers: compiling them at -O0 costs less than a faster simulation would save. MAKEFLAGS, because the packaged
-# verilated.mk lacks the flag for precompiled headers. g++ takes runtime.h.fast.gch in place of runtime.h.fast where the
-# other flags are the same.
-HEADERS = "runtime.h"
-OPTIONS = rf"-O0\ -include\ {HEADERS}.fast"
+# Verilator's runtime is compiled once. The rest is two small files, most of them headers: compiling them at -O0 costs
+# less than a faster simulation would save. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled
+# headers.
+OPTIONS = rf"-O0\ -include\ {runtime.FAST}"
 MAKE_VARIABLES = f"CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_SLOW=-O0 OPT_FAST={OPTIONS}"
-INCLUDES = "".join(f"#include <{h}>\n" for h in ("verilated.h", "verilated_vpi.h", "iostream", "memory", "sstream"))
 
 
 # ---------------------------------------------------------------- outside of the simulator
@@ -80,16 +76,12 @@ def build(toplevel, parameters, waves=None):
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
     if (target / toplevel).exists():
         return target
-    runtime = BUILD / f"runtime-{hashlib.sha256(repr(tools).encode()).hexdigest()[:20]}"
+    cache = BUILD / f"runtime-{hashlib.sha256(repr(tools).encode()).hexdigest()[:20]}"
     BUILD.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
         work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
         work.mkdir()
-        for name in (HEADERS, f"{HEADERS}.fast"):
-            (work / name).write_text(INCLUDES)
-        for file in runtime.glob("*"):
-            os.link(file, work / file.name)
-            os.utime(work / file.name, (time.time() + 3600,) * 2)  # else make finds the generated makefile younger
+        runtime.place(work, cache)
         if counting:
             (work / "coverage.vlt").write_text(coverpoints.configuration(toplevel, design))
             counting = [*counting, str(work / "coverage.vlt")]
@@ -105,16 +97,15 @@ def build(toplevel, parameters, waves=None):
         except RuntimeError as error:
             tail = "\n".join(log.read_text().splitlines()[-15:])
             raise RuntimeError(f"{toplevel} {parameters} does not build; log: {log}\n{tail}") from error
-        if not runtime.exists():
-            call = ["make", "-s", "-C", str(work), "-f", "Vtop.mk", "OPT_FAST=-O0", f"{HEADERS}.fast.gch"]
+        if not cache.exists():
+            call = ["make", "-s", "-C", str(work), "-f", "Vtop.mk", "OPT_FAST=-O0", runtime.COMPILED]
             subprocess.run(call, check=True)
-        for name, files in ((runtime, [*work.glob("verilated*.o"), *work.glob("*.gch")]), (target, [work / toplevel])):
-            place = Path(folder, name.name)
-            place.mkdir()
-            for file in files:
-                shutil.move(file, place)
-            with contextlib.suppress(OSError):  # another worker was first
-                os.replace(place, name)
+            runtime.keep(work, cache)
+        place = Path(folder, target.name)
+        place.mkdir()
+        shutil.move(work / toplevel, place)
+        with contextlib.suppress(OSError):  # another worker was first
+            os.replace(place, target)
         log.unlink()
     return target
 

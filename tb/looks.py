@@ -37,8 +37,10 @@ class Limits:
         return NO_LIMIT if limit is None else limit_of(limit)
 
     def asked(self):
-        """What is asked for in this clock, settled; None for nothing."""
-        return (int(self.dut.look_row_o.value), int(self.dut.look_x_o.value)) if self.dut.look_o.value == 1 else None
+        """What is asked for in this clock, settled; None for nothing, also before there was a pixel to ask for."""
+        row, x = self.dut.look_row_o.value, self.dut.look_x_o.value
+        known = self.dut.look_o.value == 1 and row.is_resolvable and x.is_resolvable
+        return (int(row), int(x)) if known else None
 
     def answer(self, asked):
         """At the next falling edge: the answer, which stays until the next question."""

@@ -28,6 +28,7 @@ MISSING = "iverilog is missing (Debian: apt-get install iverilog)"
 PASSES = (
     "proc -noopt",
     "pmuxtree",
+    "bwmuxmap",
     "opt_clean",
     "splitnets -driver",
     "rename {top} {top}_netlist",

@@ -63,7 +63,8 @@ async def cast(dut, random, frame, skips, share, stall, k_stop, pause):
         ended += int(dut.ended_o.value)
         steps += int(dut.steps_o.value)
         assert vectors or dut.vector_idle_o.value == 1
-        skipped, rows = int(dut.skipped_o.value), int(dut.skipped_row_o.value)
+        skipped = int(dut.skipped_o.value)
+        rows = int(dut.skipped_row_o.value) if skipped else 0
         without += [(reason, rows >> 2 * reason & 3) for reason in range(3) if skipped >> reason & 1]
         quiet = 0 if words or dut.hit_valid_o.value == 1 or dut.idle_o.value == 0 else quiet + 1
         await FallingEdge(dut.clk_i)

@@ -30,7 +30,10 @@ class Side:
 
     def settled(self):
         """A word leaves; the table reads."""
-        slot, place = int(self.dut.slot_o.value), int(self.dut.place_o.value)
+        slot, place = self.dut.slot_o.value, self.dut.place_o.value
+        # before the first frame they need not be known
+        slot = int(slot) if slot.is_resolvable else len(self.frame.descriptors)
+        place = int(place) if place.is_resolvable else 0
         d = self.frame.descriptors[slot] if slot < len(self.frame.descriptors) else []
         self.add = d[place] & feeding.MASK if place < len(d) else self.random.getrandbits(64)
         if self.dut.add_o.value == 1:

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from raydix.blocks import read_table
+
 ROOT = Path(__file__).resolve().parents[1]
 FAST = ["merge", "stream-register", "select-n1", "paths-merge"]
 
@@ -36,6 +38,18 @@ for name, proof in formal.PROOFS.items():
 """
     run = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
+
+
+def test_page_has_every_proof():
+    """The table of docs/formal.md has a row of each proof and no other, proved, all broken variants refuted."""
+    sys.path.append(str(ROOT / "scripts"))
+    from formal_proofs import PROOFS
+
+    rows = read_table(ROOT / "docs" / "formal.md", "proofs")
+    assert set(rows) == set(PROOFS)
+    assert {row[-1] for row in rows.values()} == {"proved"}
+    for name, row in rows.items():
+        assert row[5] == f"{len(PROOFS[name].broken)} of {len(PROOFS[name].broken)} refuted" or "–" in row[5], row
 
 
 def test_broken_module_is_refuted(tmp_path):

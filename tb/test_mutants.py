@@ -6,6 +6,7 @@ import tomllib
 
 import pytest
 
+from raydix.blocks import read_table
 from raydix.files import ROOT, RTL
 
 sys.path.append(str(ROOT / "scripts"))  # behind tb/, which has modules of the same names
@@ -189,3 +190,10 @@ def test_list_of_equivalents():
         assert entry["code"] in lines, f"rdx_{entry['module']} has no line {entry['code']}"
         assert " -> " in entry["change"] and len(entry["reason"]) > 20
         assert entry.keys() <= {"module", "code", "change", "nth", "reason"}
+
+
+def test_page_has_every_module():
+    """docs/mutants.md has a row of each module that has mutants, and no survivor."""
+    rows = read_table(ROOT / "docs" / "mutants.md", "mutants")
+    assert set(rows) - {"all"} == set(campaign.names())
+    assert {name for name, row in rows.items() if row[7] != "0"} == set()

