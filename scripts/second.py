@@ -35,7 +35,8 @@ HEADER = ("module", "parameter sets", "tests", "passed", "left out")
 
 # Parameter sets that take Icarus many minutes each: many lanes or cells, or all cells within one clock.
 SLOW = re.compile(
-    r"test_ring\.py.*(N1=4|Lanes=)|test_vector\.py.*N1=2|test_lanes\.py.*(7 on [1347]|15 on|general)"
+    r"test_cast\.py::test_cast(_without_spirals)?$|test_ring\.py.*(N1=4|Lanes=)"
+    r"|test_vector\.py.*N1=2|test_lanes\.py.*(7 on [1347]|15 on|general)"
     r"|test_sample\.py.*Lanes=7|test_step\.py.*(N1=4|Lanes=[37]|HalveStages=0)|test_split\.py.*N1=4"
 )
 sys.path.insert(0, str(TB))

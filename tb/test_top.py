@@ -19,10 +19,11 @@ from raydix.raster import QUARTIC_AT, ROOTS_AT, VECTOR_AT
 from raydix.rtl import top_parameters
 from raydix.scene import load_scene
 from raydix.shade import compose
-from test_csr import LIMIT, MAP, OK, Host
+from test_csr import MAP, OK, Host
 
 CONFIG = Config(2, 6, 32, 2, 1, "certified", surfaces=3, layers=2, max_width=24, beat=2)
 SIZE = 20, 9  # an odd number of lines
+LINE = 200_000  # ns, more than a whole frame takes: what hangs is ended
 
 
 class Pins:
@@ -47,7 +48,7 @@ class Display:
         """The next picture, (height, width, 3) codes; its marks are checked."""
         rows = []
         for row in range(height):
-            line = await with_timeout(cocotb.start_soon(self.sink.recv()), LIMIT, "ns")
+            line = await with_timeout(cocotb.start_soon(self.sink.recv()), LINE, "ns")
             assert len(line.tdata) == 3 * width, f"line {row}: {len(line.tdata)} bytes"
             marks = [line.tuser] * 3 * width if isinstance(line.tuser, int) else line.tuser  # of each byte
             beat = 3 * CONFIG.beat
@@ -75,6 +76,23 @@ async def program(host, name, change=None, size=SIZE):
         assert await host.write(address, value) == OK
 
 
+async def told(host, register, right):
+    """Read a register until it is ``right``; an error where it never is."""
+    for _ in range(1000):
+        if right(await host.get(register)):
+            return
+    raise AssertionError(f"{register} stays at {await host.get(register)}")
+
+
+async def interrupt(dut, most):
+    """Clocks until there is an interrupt, or ``most``."""
+    for number in range(most):
+        if dut.irq_o.value:
+            return number
+        await FallingEdge(dut.clk_i)
+    return most
+
+
 async def begin(dut, stall):
     """Host, display and a reset."""
     rng = bench.rng(stall)
@@ -92,16 +110,14 @@ async def frames_equal_golden(dut, stall):
 
     async def write_all():
         for name, size in frames:
-            while (await host.get("STATUS"))["queued"]:
-                pass
+            await told(host, "STATUS", lambda status: not status["queued"])
             await program(host, name, size=size)
 
     writing = cocotb.start_soon(write_all())
     for name, size in frames:
         assert (await display.picture(*size) == golden(name, size)[2]).all(), name
     await writing
-    while (await host.get("FRAMES"))["count"] < len(frames):
-        pass
+    await told(host, "FRAMES", lambda frames_made: frames_made["count"] >= len(frames))
     counted = {name.lower(): (await host.get(name))["count"] for name in ("RAYS", "HITS", "VISIBLE", "LAYERS_LOST")}
     frame = golden(*frames[-1])
     assert counted["layers_lost"] == 0 and 0 < counted["visible"] <= counted["hits"]
@@ -156,14 +172,10 @@ async def reset_at_the_end_of_a_frame(dut):
     host, display = await begin(dut, 0.0)
 
     async def clocks(most):
-        """Clocks from the start of a frame to its interrupt, or ``most``."""
+        """Clocks from the start of a frame to its interrupt."""
         await host.put("IRQ_ENABLE", done=1)
         await program(host, "cone", size=(7, 4))
-        for number in range(most):
-            if dut.irq_o.value:
-                return number
-            await FallingEdge(dut.clk_i)
-        return most
+        return await interrupt(dut, most)
 
     whole = await clocks(20_000)
     assert 100 < whole < 20_000
@@ -236,8 +248,7 @@ async def illegal_program_is_told(dut, what):
     host, display = await begin(dut, 0.0)
     await host.put("IRQ_ENABLE", error=1)
     await program(host, "sphere", ILLEGAL[what])
-    while not dut.irq_o.value:
-        await FallingEdge(dut.clk_i)
+    assert await interrupt(dut, 5000) < 5000
     assert (await host.get("STATUS")) == {"busy": 0, "queued": 0, "done": 0, "error": 1}
     assert (await host.get("ERROR")) == {"code": MAP.ERRORS[what.split()[0]][0], "slot": 0}
     await ClockCycles(dut.clk_i, 500)
