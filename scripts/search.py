@@ -23,7 +23,6 @@ ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tb" / "cases.toml"
 HEADER = ("search", "generations", "rays tried", "of the first", "found")
 KEPT = 8  # cases of each search that are written
-ALONE = 20  # chords of the last generation that are compiled one by one
 ALIKE = 0.9999  # cosine of the angle between two items' coefficients that count as the same case
 FIELDS = ("R", "r", "pitch", "turns", "R_growth", "r_growth")
 
@@ -119,6 +118,11 @@ def judge_chords(surface, h, e) -> stress.Judged:
     return stress.judge_spiral(surface, compiled, trace_spiral(compiled, config), exact, clearance, config)
 
 
+def alone(score, surface, h, e) -> np.ndarray:
+    """Scores of chords that are compiled one by one, as cases are: together they have one unit, that of the longest."""
+    return np.array([float(score(surface, h[i : i + 1], e[i : i + 1])[0]) for i in range(len(h))])
+
+
 def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
     """Chords of the highest score through a spiral of each category: [(surface, h, e, score)], and the first best."""
     dice, kept, begin = np.random.default_rng(seed), [], 0.0
@@ -126,7 +130,7 @@ def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
         for surface, h, e in stress_spirals.CATEGORIES[name](dice, stress_spirals.SHARE):
             h, e = h[:count], e[:count]
             size = float(np.linalg.norm(e - h, axis=1).max())
-            s = score(surface, h, e)
+            s = alone(score, surface, h, e)
             begin = max(begin, float(s.max()))
             for _ in range(generations):
                 best = np.argsort(-s, kind="stable")[: max(1, count // 10)]
@@ -135,13 +139,10 @@ def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
                 off = dice.normal(size=(2, len(parents), 3)) * scale
                 fresh = h[parents] + off[0], e[parents] + off[1]
                 h, e = np.concatenate([h[best], fresh[0]]), np.concatenate([e[best], fresh[1]])
-                s = np.concatenate([s[best], score(surface, *fresh)])
+                s = np.concatenate([s[best], alone(score, surface, *fresh)])
                 tick()
-            # alone a chord has another unit: what it scores then is what its case keeps
-            best = np.argsort(-s, kind="stable")[:ALONE]
-            alone = [float(score(surface, h[i : i + 1], e[i : i + 1])[0]) for i in best]
-            i = best[int(np.argmax(alone))]
-            kept.append((surface, h[i], e[i], max(alone)))
+            i = int(np.argmax(s))
+            kept.append((surface, h[i], e[i], float(s[i])))
     return sorted(kept, key=lambda case: -case[3]), begin
 
 
@@ -192,7 +193,7 @@ def main() -> int:
         spirals = {}
         for name, (score, names) in SPIRALS.items():
             bar = progress.add_task(f"spirals: {name}", total=few * len(names))
-            count = max(10, args.rays // 100)
+            count = max(10, args.rays // 200)
             spirals[name], begin = evolve_spiral(
                 score, names, few, count, args.seed, lambda bar=bar: progress.advance(bar)
             )
