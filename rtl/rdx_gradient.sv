@@ -90,7 +90,7 @@ module rdx_gradient #(
     wire unused_rst = rst_ni;
   end else begin : gen_quartic
     normal_t value[2];
-    normal_t other[2][3];  // gradient of the other factor
+    normal_t other[2] [3];  // gradient of the other factor
     rdx_quadric #(
         .Surfaces(Surfaces),
         .Matrix  (AtQ1Matrix),
