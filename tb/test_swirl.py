@@ -303,9 +303,10 @@ def directions(dice, found, count):
     return np.linalg.norm(got - exact, axis=-1), error, error / np.take_along_axis(possible.allowed, best, 0)[0]
 
 
-def test_error():
+@pytest.mark.parametrize("seed", [1, None], ids=["always", "drawn"])
+def test_error(seed):
     """The direction is within its bound of the definition's; what a point is taken for is nearly always the same."""
-    dice = random.Random(int(os.environ.get("SEED") or 1))
+    dice = random.Random(seed or int(os.environ.get("SEED") or 2))
     found = [*scene_swirls(), *(random_swirl(dice, number % 2) for number in range(40))]
     worst, plain, doubtful, seen = [], [], [], []
     for each in found:
@@ -326,3 +327,5 @@ def test_error():
           f"99.9 % {most:.2g}, max {seen.max():.2g}")  # fmt: skip
     assert plain.size > 20_000 and len(worst) >= 30 and max(worst) > 1 / 4
     assert rate < 2.0**-7 and median < 2.0**-13
+    if seed:  # of the spirals drawn some are thinner or nearer to the axis than these
+        assert max(worst) > 1 / 3 and rate < 2.0**-9 and rms < 2.0**-12
