@@ -6,6 +6,7 @@ import random
 import sys
 from pathlib import Path
 
+import mpmath as mp
 import numpy as np
 from rich.console import Console
 from rich.progress import track
@@ -13,11 +14,11 @@ from rich.progress import track
 from raydix import stress, stress_polynomials, stress_rays, stress_spirals
 from raydix.blocks import show_table, write_table
 from raydix.chords import chord_quads
-from raydix.chords_spiral import random_spiral
-from raydix.compile_spiral import needs_general
+from raydix.chords_spiral import random_spiral, spiral_config
+from raydix.compile import PRECISION, Quadratic
 from raydix.config import Config
 from raydix.error_bounds import halving, resolution
-from raydix.error_measure import coordinate_error, halving_error, indicator_errors, product_errors
+from raydix.error_measure import coordinate_error, halving_error, indicator_errors, product_errors, word_errors
 from raydix.rounding import bernstein, passed
 from raydix.segments import Segments, trace_segments, whole
 from raydix.surfaces import form
@@ -44,6 +45,28 @@ def halving_rows(count: int, seed: int, degrees=(4, 2), shapes=SHAPES):
             row = [f"halving above, D = {degree}, n1 = {n1}", "ulp of f", cases, bound, worst]
             yield row, worst > bound or least < 0
             yield [f"halving below, D = {degree}, n1 = {n1}", "ulp of f", cases, 0.0, -least], least < 0
+
+
+def word_rows(count: int, seed: int):
+    """Random polynomials of the pixel that fit their accumulators, at pixels up to 1920: nearest to the bound."""
+    dice = random.Random(seed)
+    worst = {0: (0.0, 1.0), 1: (0.0, 1.0)}
+    with mp.workprec(PRECISION):
+
+        def real(power):
+            """A number of that many pixels' factor, with more binary digits than a word has."""
+            return (mp.mpf(dice.getrandbits(200)) / mp.mpf(2) ** 199 - 1) * mp.mpf(2) ** (58 - 11 * power)
+
+        for _ in range(count):
+            x, y = dice.choice(
+                ((0, 0), (dice.randrange(4), dice.randrange(4)), (dice.randrange(1920), dice.randrange(1920)))
+            )
+            lanes = [Quadratic(*map(real, (0, 1, 1, 2, 2, 2)))], [tuple(map(real, (0, 1, 1)))]
+            for quadratic, (bound, found) in zip((1, 0), word_errors(*lanes, (x, y)), strict=True):
+                worst[quadratic] = max(worst[quadratic], (found, bound), key=lambda pair: pair[0] / pair[1])
+    for quadratic, name in ((1, "quadrics"), (0, "coordinates")):
+        found, bound = worst[quadratic]
+        yield [f"words of {name}, where nearest to their bound", "unit", count, bound, found], found > bound
 
 
 def product_rows(count: int, seed: int):
@@ -79,7 +102,7 @@ def indicator_rows(count: int, seed: int):
     worst, cases = 0.0, 0
     for _ in range(max(1, count // 50)):
         surface = random_spiral(dice)
-        config = Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
+        config = spiral_config(surface)
         turns, tilt = dots.uniform(0, surface.turns, 50), dots.uniform(0, 2 * np.pi, 50)
         points = stress_spirals.tube_points(surface, turns, tilt, 2.0 ** dots.uniform(-3, 2, 50))
         for _, found in indicator_errors(surface, points, config):
@@ -90,7 +113,7 @@ def indicator_rows(count: int, seed: int):
 def root_rows(count: int, seed: int):
     """First roots of the stress categories: what was passed over, the cell that was found, the error of t."""
     config = Config(units=1)
-    above, fine = halving(3, 8, 4), resolution(config.digits, 4, config.width)
+    above, fine = halving(3, 8, 4, config.width), resolution(config.digits, 4, config.width)
     deep, low, high, error = [], [], [], []
     for make in stress.categories(4).values():
         for segments in make(np.random.default_rng(seed), count, config):
@@ -129,6 +152,7 @@ def main() -> int:
     rows, refuted = [], []
     kinds = (
         (halving_rows, args.rays),
+        (word_rows, 4 * args.rays),
         (product_rows, 4 * args.rays),
         (coordinate_rows, 20 * args.rays),
         (root_rows, 20 * args.rays),

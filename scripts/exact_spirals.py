@@ -16,9 +16,15 @@ from rich.progress import track
 
 from raydix import spiral
 from raydix.blocks import show_table, write_table
-from raydix.chords_spiral import box_of, chords_through, compile_chords, random_spiral, slopes, trace_spiral
-from raydix.compile_spiral import needs_general
-from raydix.config import Config
+from raydix.chords_spiral import (
+    box_of,
+    chords_through,
+    compile_chords,
+    random_spiral,
+    slopes,
+    spiral_config,
+    trace_spiral,
+)
 from raydix.exact_spiral import Judged, ends_of_words, judge
 from raydix.formats import STEPS_MAX
 
@@ -101,8 +107,7 @@ def one(surface, kind: str, count: int, seed: int) -> list[Part]:
     h, e = KINDS[kind](surface, count, seed)
     results = []
     for rule, n1, steps in CONFIGS:
-        vecsum = "general" if needs_general(surface) else "helix"
-        config = Config(n1, steps, units=1, rule=rule, degree=0, vecsum=vecsum)
+        config = spiral_config(surface, n1, steps, rule)
         compiled = compile_chords(surface, h, e, config)
         t, taken = trace_spiral(compiled, config)
         kept = np.flatnonzero(taken < STEPS_MAX)

@@ -12,8 +12,8 @@ from rich.progress import Progress
 
 from raydix import stress, stress_spirals
 from raydix.blocks import show_table, write_table
-from raydix.chords_spiral import compile_chords, trace_spiral
-from raydix.compile_spiral import needs_general
+from raydix.chords_spiral import compile_chords, spiral_config, trace_spiral
+from raydix.compile_spiral import Oversize
 from raydix.config import Config
 from raydix.oracle_spiral import spiral_chord_roots
 from raydix.segments import Segments, trace_segments, whole
@@ -22,16 +22,17 @@ from raydix.stress_polynomials import fitted
 ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tb" / "cases.toml"
 HEADER = ("search", "generations", "rays tried", "of the first", "found")
+SPIRALS_TRIED = 10  # of a category, before the one is chosen that is searched
 KEPT = 8  # cases of each search that are written
 ALIKE = 0.9999  # cosine of the angle between two items' coefficients that count as the same case
 FIELDS = ("R", "r", "pitch", "turns", "R_growth", "r_growth")
 
 
 def first_items(dice, count: int, config: Config) -> np.ndarray:
-    """Control points of all categories of polynomials: (N, degree + 1) int64."""
-    named = stress.stress_polynomials.CATEGORIES.values()
+    """Control points of all categories of the stress test: (N, degree + 1) int64."""
+    named = stress.categories(config.degree).values()
     share = -(-count // len(named))
-    return np.concatenate([fitted(make(dice, share, config.degree), config.width) for make in named])
+    return np.concatenate([part.b for make in named for part in make(dice, share, config)])
 
 
 def children(dice, b: np.ndarray, count: int, config: Config) -> np.ndarray:
@@ -105,11 +106,6 @@ def spiral_error(surface, h, e) -> np.ndarray:
     return np.where(judged.failed, np.inf, np.where(good, np.nan_to_num(judged.error), 0.0))
 
 
-def spiral_config(surface) -> Config:
-    """The reference configuration of a spiral."""
-    return Config(units=1, degree=0, vecsum="general" if needs_general(surface) else "helix")
-
-
 def judge_chords(surface, h, e) -> stress.Judged:
     """What the oracle says of the golden model's first roots."""
     config = spiral_config(surface)
@@ -119,30 +115,56 @@ def judge_chords(surface, h, e) -> stress.Judged:
 
 
 def alone(score, surface, h, e) -> np.ndarray:
-    """Scores of chords that are compiled one by one, as cases are: together they have one unit, that of the longest."""
-    return np.array([float(score(surface, h[i : i + 1], e[i : i + 1])[0]) for i in range(len(h))])
+    """Scores of chords that are compiled one by one, as cases are: together they have one unit, that of the longest.
+
+    -1 for a chord that is refused, since a constant has no room.
+    """
+
+    def one(i):
+        try:
+            return float(score(surface, h[i : i + 1], e[i : i + 1])[0])
+        except Oversize:
+            return -1.0
+
+    return np.array([one(i) for i in range(len(h))])
+
+
+def first_chords(score, name: str, spirals: int, count: int, dice):
+    """Of a category the spiral that has the chord of the highest score, and its ``count`` best chords.
+
+    Chords of a spiral are compiled together here, which is much faster.
+    """
+    best = None
+    for surface, h, e in stress_spirals.CATEGORIES[name](dice, spirals * stress_spirals.SHARE):
+        try:
+            s = score(surface, h, e)
+        except Oversize:
+            continue
+        if best is None or s.max() > best[0]:
+            kept = np.argsort(-s, kind="stable")[:count]
+            best = float(s.max()), surface, h[kept], e[kept]
+    return best[1:]
 
 
 def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
     """Chords of the highest score through a spiral of each category: [(surface, h, e, score)], and the first best."""
     dice, kept, begin = np.random.default_rng(seed), [], 0.0
     for name in names:
-        for surface, h, e in stress_spirals.CATEGORIES[name](dice, stress_spirals.SHARE):
-            h, e = h[:count], e[:count]
-            size = float(np.linalg.norm(e - h, axis=1).max())
-            s = alone(score, surface, h, e)
-            begin = max(begin, float(s.max()))
-            for _ in range(generations):
-                best = np.argsort(-s, kind="stable")[: max(1, count // 10)]
-                parents = dice.choice(best, count - len(best))
-                scale = size * 2.0 ** -dice.uniform(4, 28, (2, len(parents), 1))
-                off = dice.normal(size=(2, len(parents), 3)) * scale
-                fresh = h[parents] + off[0], e[parents] + off[1]
-                h, e = np.concatenate([h[best], fresh[0]]), np.concatenate([e[best], fresh[1]])
-                s = np.concatenate([s[best], alone(score, surface, *fresh)])
-                tick()
-            i = int(np.argmax(s))
-            kept.append((surface, h[i], e[i], float(s[i])))
+        surface, h, e = first_chords(score, name, SPIRALS_TRIED, count, dice)
+        size = float(np.linalg.norm(e - h, axis=1).max())
+        s = alone(score, surface, h, e)
+        begin = max(begin, float(s.max()))
+        for _ in range(generations):
+            best = np.argsort(-s, kind="stable")[: max(1, count // 10)]
+            parents = dice.choice(best, count - len(best))
+            scale = size * 2.0 ** -dice.uniform(4, 28, (2, len(parents), 1))
+            off = dice.normal(size=(2, len(parents), 3)) * scale
+            fresh = h[parents] + off[0], e[parents] + off[1]
+            h, e = np.concatenate([h[best], fresh[0]]), np.concatenate([e[best], fresh[1]])
+            s = np.concatenate([s[best], alone(score, surface, *fresh)])
+            tick()
+        i = int(np.argmax(s))
+        kept.append((surface, h[i], e[i], float(s[i])))
     return sorted(kept, key=lambda case: -case[3]), begin
 
 
@@ -159,7 +181,7 @@ def toml(items: dict, spirals: dict) -> str:
     return "\n".join(lines) + "\n"
 
 
-# score of the chords, and the categories whose first spiral is searched
+# score of the chords, and the categories of each of which one spiral is searched
 SPIRALS = {
     "error": (spiral_error, ("any chord through any spiral", "thin spiral", "spiral, turns nearly touch")),
     "steps": (spiral_steps, ("spiral, tip near the axis", "spiral, grazing", "spiral, along its axis")),
@@ -197,7 +219,7 @@ def main() -> int:
             spirals[name], begin = evolve_spiral(
                 score, names, few, count, args.seed, lambda bar=bar: progress.advance(bar)
             )
-            tried = len(names) * (few * (count - count // 10) + count)
+            tried = len(names) * (few * (count - count // 10) + SPIRALS_TRIED * stress_spirals.SHARE)
             most = spirals[name][0][3]
             rows.append([f"spirals: most {name}", str(few), f"{tried:,}", f"{begin:.3f}", f"{most:.3f}"])
     failed = not np.isfinite(items["error"][1]).all()

@@ -13,8 +13,16 @@ from rich.progress import track
 from rich.table import Table
 
 from raydix.blocks import write_table
-from raydix.chords_spiral import Judged, chords_through, compile_chords, judge, random_spiral, trace_spiral
-from raydix.compile_spiral import NEVER, needs_general
+from raydix.chords_spiral import (
+    Judged,
+    chords_through,
+    compile_chords,
+    judge,
+    random_spiral,
+    spiral_config,
+    trace_spiral,
+)
+from raydix.compile_spiral import NEVER
 from raydix.config import Config
 from raydix.formats import FORM_INDEX, ZONES
 from raydix.oracle_spiral import spiral_chord_roots
@@ -70,8 +78,7 @@ def family(made: list) -> Iterator[list[str]]:
     for rule, n1, steps in FAMILY:
         parts = []
         for surface, h, e, exact, clearance in made:
-            vecsum = "general" if needs_general(surface) else "helix"
-            config = Config(n1, steps, units=1, rule=rule, degree=0, vecsum=vecsum)
+            config = spiral_config(surface, n1, steps, rule)
             compiled = compile_chords(surface, h, e, config)
             found = trace_spiral(compiled, config)
             parts.append(judge(surface, compiled, found, exact, clearance, config.digits))
@@ -102,7 +109,7 @@ def family_cells(rule: str, n1: int, steps: int, parts: list[Judged]) -> list[st
 def bounds(chords: int, seed: int) -> Iterator[list[str]]:
     """Rows of the table of the bounds: J = 8, 24 digits."""
     for name, surface in SHAPES.items():
-        config = Config(degree=0, vecsum="general" if needs_general(surface) else "helix")
+        config = spiral_config(surface)
         compiled = compile_chords(surface, *chords_through(surface, chords, seed), config)
         exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
         for label, (zones, curved) in BOUNDS.items():

@@ -15,8 +15,8 @@ from rich.progress import Progress
 
 from raydix import stress, stress_polynomials, stress_spirals
 from raydix.blocks import show_table, write_table
-from raydix.chords_spiral import compile_chords, trace_spiral
-from raydix.compile_spiral import Oversize, needs_general
+from raydix.chords_spiral import compile_chords, spiral_config, trace_spiral
+from raydix.compile_spiral import Oversize
 from raydix.config import Config
 from raydix.exact import changes
 from raydix.oracle_spiral import spiral_chord_roots
@@ -49,6 +49,7 @@ HEADER = (
 )  # fmt: skip
 
 
+RULES = ("certified", "paper")
 COUNTS = HEADER[2:13]
 FAILED = slice(2, 6)  # of them: missed, false, wrong, off
 
@@ -77,8 +78,7 @@ def judged_parts(job: Job, rules):
         for surface, h, e in stress_spirals.CATEGORIES[job.name](dice, job.count):
             exact = None
             for rule in rules:
-                config = Config(job.config.n1, job.config.steps, units=1, rule=rule, degree=0,
-                                vecsum="general" if needs_general(surface) else "helix")  # fmt: skip
+                config = spiral_config(surface, job.config.n1, job.config.steps, rule)
                 try:
                     compiled = compile_chords(surface, h, e, config)
                 except Oversize:  # refused: a constant has no room
@@ -115,7 +115,7 @@ def nothing() -> dict:
 
 def run(job: Job) -> Result:
     """One batch through the golden model, both rules where it is its turn."""
-    rules = ("certified", "paper") if job.number % PAPER_SHARE == 0 else ("certified",)
+    rules = RULES if job.number % PAPER_SHARE == 0 else RULES[:1]
     out = {}
     for rule, j, steps, case in judged_parts(job, rules):
         into = out.setdefault(rule, nothing())
@@ -201,6 +201,26 @@ def failures(joined: dict) -> int:
     return sum(int(r["counts"][FAILED].sum()) for (_, rule), r in joined.items() if rule == "certified")
 
 
+def each_level(rays: int, seed: int, processes: int) -> tuple[list, int]:
+    """Rows of single levels and distances, and failures."""
+    names = list(stress_polynomials.EACH)
+    part = collect(jobs(rays, seed, names, Config(units=1), False), processes, True)
+    return [cells(name, rule, part[name, rule]) for rule in RULES for name in names], failures(part)
+
+
+def at_limits(rays: int, seed: int, processes: int) -> tuple[list, int]:
+    """Rows of the parameters' ends, both rules, and failures."""
+    limits = [(Config(*n1_k_w, degree=degree, units=1), LIMIT_CATEGORIES, rays) for *n1_k_w, degree in LIMITS]
+    limits += [(Config(*n1_k, units=1), SPIRAL_LIMIT_CATEGORIES, max(1, rays // 10)) for n1_k in SPIRAL_LIMITS]
+    rows, failed = [], 0
+    for config, names, count in limits:
+        part = collect(jobs(count, seed, names, config, False), processes, True)
+        words = f"{config.width}, {config.degree}" if names is LIMIT_CATEGORIES else "spirals"
+        rows += [[f"{config.n1}, {config.steps}, {words}", *total(part, rule)[1:]] for rule in RULES]
+        failed += failures(part)
+    return sorted(rows, key=lambda row: RULES.index(row[1])), failed
+
+
 def main() -> int:
     """Command line; exit status 1 where the certified rule failed outside of the documented band."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -219,26 +239,18 @@ def main() -> int:
     if not names:
         parser.error(f"--only: found {args.only!r}; allowed: part of one of {', '.join(algebraic + spirals)}")
     joined = collect(jobs(args.rays, args.seed, names, reference), args.jobs)
-    rows = [cells(name, rule, joined[name, rule]) for rule in ("certified", "paper") for name in names]
-    rows += [total(joined, rule) for rule in ("certified", "paper")]
+    rows = [cells(name, rule, joined[name, rule]) for rule in RULES for name in names]
+    rows += [total(joined, rule) for rule in RULES]
     left = ("category", "rule", "n1, K, W, D")
     show_table(f"n1 = 3, K = 8, W = 36, D = 4; seed {args.seed}", HEADER, rows, left, 240)
     failed = failures(joined)
     limit_rows, each_rows = [], []
     if not args.only:
         few = max(1, args.rays // 40)
-        each = list(stress_polynomials.EACH)
-        part = collect(jobs(few, args.seed, each, reference, False), args.jobs, True)
-        each_rows = [cells(name, rule, part[name, rule]) for rule in ("certified", "paper") for name in each]
-        failed += failures(part)
+        each_rows, more = each_level(few, args.seed, args.jobs)
         show_table("each level, each distance", HEADER, each_rows, left, 240)
-        limits = [(Config(*n1_k_w, degree=degree, units=1), LIMIT_CATEGORIES, few) for *n1_k_w, degree in LIMITS]
-        limits += [(Config(*n1_k, units=1), SPIRAL_LIMIT_CATEGORIES, max(1, few // 10)) for n1_k in SPIRAL_LIMITS]
-        for config, names, count in limits:
-            part = collect(jobs(count, args.seed, names, config, False), args.jobs, True)
-            words = f"{config.width}, {config.degree}" if names is LIMIT_CATEGORIES else "spirals"
-            limit_rows.append([f"{config.n1}, {config.steps}, {words}", *total(part, "certified")[1:]])
-            failed += failures(part)
+        limit_rows, most = at_limits(few, args.seed, args.jobs)
+        failed += more + most
         show_table("limits of the parameters", ("n1, K, W, D", *HEADER[1:]), limit_rows, left, 240)
     pictures = IMAGES if args.write else args.pictures
     if pictures:

@@ -76,7 +76,7 @@ def build(toplevel, parameters, waves=None):
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
     if (target / toplevel).exists():
         return target
-    cache = BUILD / f"runtime-{hashlib.sha256(repr(tools).encode()).hexdigest()[:20]}"
+    cache = BUILD / f"runtime-{hashlib.sha256(repr([*tools, runtime.compiler()]).encode()).hexdigest()[:20]}"
     BUILD.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
         work, log = Path(folder, "work"), BUILD / f"{target.name}.log"

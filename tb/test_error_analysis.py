@@ -4,6 +4,7 @@
 import sys
 from pathlib import Path
 
+import mpmath as mp
 import numpy as np
 import pytest
 
@@ -47,6 +48,18 @@ def test_halving_would_be_refuted(monkeypatch):
     for broken in (lower, higher):
         monkeypatch.setattr(error_measure, "subdivide", broken)
         assert any(refuted for _, refuted in errors.halving_rows(2, 1, (4,), ((3, 8),)))
+
+
+def test_words():
+    """Within the bound, and more than a third of it is reached."""
+    for row in checked(errors.word_rows(300, 1)):
+        assert row[4] > row[3] / 3, row
+
+
+def test_words_would_be_refuted(monkeypatch):
+    """Words that are cut, not rounded, are off by more."""
+    monkeypatch.setattr(mp, "nint", mp.floor)
+    assert all(refuted for _, refuted in errors.word_rows(300, 1))
 
 
 def test_product():
@@ -100,8 +113,8 @@ def test_indicator():
 @pytest.mark.parametrize("n1", [1, 2, 3, 4])
 def test_bound_does_not_grow_with_steps(n1):
     """The bound of the halving converges: a third of the digits more adds next to nothing."""
-    assert halving(n1, 32 // n1, 4) - halving(n1, 24 // n1, 4) < 1e-3
-    assert halving(n1, 24 // n1, 2) < halving(n1, 24 // n1, 4) < 17
+    assert halving(n1, 32 // n1, 4, 36) - halving(n1, 24 // n1, 4, 36) < 1e-3
+    assert halving(n1, 24 // n1, 2, 36) < halving(n1, 24 // n1, 4, 36) < 17
 
 
 def test_part_of_a_polynomial():
@@ -121,5 +134,5 @@ def test_wide_words_have_smaller_errors():
         b = dice.integers(-(2 ** (width - 1)), 2 ** (width - 1), 5)
         bound, low, high = error_measure.halving_error(b, int(dice.integers(0, 1 << 24)), config)
         assert low >= 0
-        assert bound == halving(3, 8, 4)
+        assert bound == halving(3, 8, 4, width)
         assert high <= bound + 1  # any path, not only one that is followed: cells without a root are not normalised

@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpq, fmpq_poly
 
-from raydix.chords_spiral import chords_through, compile_chords, random_spiral, trace_spiral
-from raydix.compile_spiral import needs_general
-from raydix.config import Config
+from raydix.chords_spiral import chords_through, compile_chords, random_spiral, spiral_config, trace_spiral
 from raydix.exact_chord import Line, Solid, value_over
 from raydix.exact_spiral import certify, ends_of_words, indicator, judge, rational, roots
 from raydix.formats import FORM_INDEX, ZONES
@@ -360,7 +358,7 @@ def test_unusable():
 
 def judged(surface, h, e, rule="certified", weaken=None):
     """The golden model, n1 = 3, K = 8, on chords: what is proved about it, with a margin of 64 ulp."""
-    config = Config(3, 8, units=1, degree=0, vecsum="general" if needs_general(surface) else "helix", rule=rule)
+    config = spiral_config(surface, 3, 8, rule)
     compiled = compile_chords(surface, h, e, config)
     if weaken:
         words = compiled.form.copy()

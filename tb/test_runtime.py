@@ -10,7 +10,7 @@ MADE = "verilated.o", "verilated_threads.o", f"{runtime.FAST}.gch", f"{runtime.S
 
 def test_first_build_is_kept(tmp_path):
     """Objects and headers of the first build go to the next one, newer than its makefile; the design's do not."""
-    cache, works = tmp_path / "cache", [tmp_path / str(i) for i in range(3)]
+    cache, works, states = tmp_path / "cache", [tmp_path / str(i) for i in range(3)], []
     for number, work in enumerate(works):
         work.mkdir()
         runtime.place(work, cache)
@@ -24,5 +24,7 @@ def test_first_build_is_kept(tmp_path):
             (work / name).write_text(f"{number}")
         (work / "Vtop.o").write_text("")
         runtime.keep(work, cache)
+        states.append([(file.stat().st_mtime, file.stat().st_nlink) for file in sorted(cache.iterdir())])
+        assert states[-1] == states[0]  # a build changes nothing of what is kept
         assert sorted(file.name for file in cache.iterdir()) == sorted(MADE)
         assert len(list(tmp_path.iterdir())) == len({cache, *works[: number + 1]})  # no folder is left over

@@ -84,7 +84,7 @@ def taken(b, *found, config=REFERENCE):
 def test_band_is_as_deep_as_the_bound(side, depth, explained):
     """A dip that is passed over is excused where it is less deep than A, and only if f dips from above."""
     config = Config(units=1, degree=2)
-    deep = int(depth * stress.halving(config.n1, config.steps, 2))
+    deep = int(depth * stress.halving(config.n1, config.steps, 2, config.width))
     b = [side * ((1 << 33) - deep), side * (-(1 << 33) - deep), side * ((1 << 33) - deep)]
     judged = taken(b, -1, config=config)
     assert judged.missed[0]

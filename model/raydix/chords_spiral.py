@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from .compile import PRECISION
-from .compile_spiral import epsilon, form_words, tube_of
+from .compile_spiral import epsilon, form_words, needs_general, tube_of
 from .config import Config
 from .core import scratch
 from .ends import ends
@@ -23,6 +23,12 @@ from .ring import trace
 from .scene import Spiral
 from .spiral import gradient
 from .surfaces import bounding_box
+
+
+def spiral_config(surface, n1: int = 3, steps: int = 8, rule: str = "certified") -> Config:
+    """The smallest configuration that has the evaluator of a spiral."""
+    vecsum = "general" if needs_general(surface) else "helix"
+    return Config(n1, steps, units=1, degree=0, vecsum=vecsum, rule=rule)
 
 
 class Chords(NamedTuple):

@@ -9,12 +9,19 @@ from math import comb
 from .formats import OPERAND_SHIFT, PRODUCT_DROP, QUAD_ACC_WIDTH
 
 
-def halving(n1: int, steps: int, degree: int) -> float:
+def word(x: int, y: int, quadratic: bool) -> float:
+    """How far a lane's value at the pixel (x, y) can be from that of exact words; docs/error-analysis.md, "Words"."""
+    s = x + y
+    return (s * s + s + 2) / 4 if quadratic else (s + 1) / 2
+
+
+def halving(n1: int, steps: int, degree: int, width: int) -> float:
     """How far a control point of any cell that a descent visits can lie above the exact one; never below.
 
     docs/error-analysis.md, "Halving"
     """
-    return n1 * degree / 2 * sum(min(1.0, 4 * degree * 2.0 ** (-n1 * k)) for k in range(steps))
+    weights = sum(min(1.0, 4 * degree * 2.0 ** (-n1 * k)) for k in range(steps))
+    return n1 * degree / 2 * weights / (1 - 2 * n1 * steps * degree * 2.0**-width)
 
 
 def product_error(shift: int, largest: float, width: int) -> float:

@@ -8,14 +8,17 @@ the inequality; a single measurement where ``found > bound`` would refute the de
 from fractions import Fraction
 from math import comb
 
+import mpmath as mp
 import numpy as np
 from flint import arb
 
+from . import fdiff
 from .cells import subdivide
 from .chords_spiral import compile_chords
+from .compile import PRECISION, Quadratic
 from .config import Config
 from .cordic import gain
-from .error_bounds import coordinates, halving, product_error
+from .error_bounds import coordinates, halving, product_error, word
 from .exact_spiral import ends_of_words, indicator
 from .formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS, OPERAND_SHIFT, PRODUCT_DROP, QUAD_ACC_WIDTH, VECTOR_FRAC
 from .halve import average
@@ -61,7 +64,30 @@ def halving_error(b, digits: int, config: Config) -> tuple[float, Fraction, Frac
         scale <<= int(redundant_bits(chosen, 0, degree + 1, config.width, norm_limit(n1)))
         normalize(chosen, 0, degree + 1, config.width, config.width, norm_limit(n1))
         values = chosen.tolist()
-    return halving(n1, steps, degree), least, most
+    return halving(n1, steps, degree, config.width), least, most
+
+
+def word_errors(quadratics: list[Quadratic], linear: list[tuple], pixel: tuple[int, int]) -> list[tuple[float, float]]:
+    """Lanes of exact coefficients at a pixel, by forward differences: (bound, |computed - exact|) of each, units.
+
+    quadratics  polynomials in units of the accumulator
+    linear      (first, per column, per row), likewise
+    """
+    x, y = pixel
+    with mp.workprec(PRECISION):
+        lanes = [(p.lane(1), 1, p.c00 + p.c10 * x + p.c01 * y + p.c20 * x * x + p.c11 * x * y + p.c02 * y * y)
+                 for p in quadratics]  # fmt: skip
+        lanes += [([int(mp.nint(v)) for v in p], 0, p[0] + p[1] * x + p[2] * y) for p in linear]
+        state = np.zeros((fdiff.ROWS, len(lanes)), np.int64)
+        for lane, (words, quadratic, _) in enumerate(lanes):
+            fdiff.load(state, lane, np.array([*words, 0, 0, 0], np.int64), 0, quadratic)
+        for _ in range(y):
+            fdiff.next_row(state)
+        for _ in range(x):
+            fdiff.next_pixel(state)
+        values = state[fdiff.VALUE].tolist()
+        return [(word(x, y, quadratic), float(abs(value - exact)))
+                for value, (_, quadratic, exact) in zip(values, lanes, strict=True)]  # fmt: skip
 
 
 def product_errors(quads: np.ndarray, config: Config) -> list[tuple[float, float]]:

