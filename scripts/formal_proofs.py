@@ -26,8 +26,13 @@ def halve(w, d):
     broken = (
         ("rdx_halve", "+ (W + 1)'(1)) >>> 1", "+ (W + 1)'(2)) >>> 1"),
         ("rdx_halve", "right_o = gen_row[D].work_q", "right_o = gen_row[D].left_q"),
+        (
+            "rdx_halve",
+            "work_d[i] = average(b_i[i], b_i[i+1])",
+            "work_d[i] = i == 1 ? b_i[1] : average(b_i[i], b_i[i+1])",
+        ),
     )
-    says = "rounding half up, outer ends exact, inner end shared, all within the hull of the inputs"
+    says = "every value is de Casteljau's, averages half up; outer ends exact, inner end shared, all within the hull"
     return Proof("formal_halve", "rdx_halve", says, {"W": w, "D": d}, broken=broken, stages=d)
 
 
@@ -45,15 +50,28 @@ def select(w, d, n1, rules):
     return Proof("formal_select", "rdx_select", says, values, f"induction {clocks + 2}", tuple(broken))
 
 
-def normalize(w_in, w_out, count, limit):
-    """rdx_normalize of some widths."""
+def normalize(w_in, w_out, count, limit, stages=2):
+    """rdx_normalize of some widths and stages."""
     broken = (
         ("rdx_normalize", "shift_d = Fine'(Places - 1 - s);", "shift_d = Fine'(Places - s);"),
         ("rdx_normalize", "shift_d = Fine'(Places);", "shift_d = Fine'(Places - 1);"),
     )
+    if stages == 4:
+        broken += (("rdx_normalize", "eights_d = (Bits - 3)'(Groups - 1 - g);", "eights_d = (Bits - 3)'(Groups - g);"),)
     says = "one shift for all, the largest that fits; signs stay; floor to the output"
-    values = {"WIn": w_in, "WOut": w_out, "Count": count, "Limit": limit}
-    return Proof("formal_normalize", "rdx_normalize", says, values, "induction 4", broken)
+    values = {"WIn": w_in, "WOut": w_out, "Count": count, "Limit": limit, "Stages": stages}
+    return Proof("formal_normalize", "rdx_normalize", says, values, f"induction {stages + 2}", broken)
+
+
+def scale(w, count, bits):
+    """rdx_scale of some width: the normaliser of a step."""
+    broken = (
+        ("rdx_scale", "Places = 1 << (Bits - s)", "Places = s == 1 ? 1 : 1 << (Bits - s)"),
+        ("rdx_scale", "[W-2-:Places] != {Places{gen_bit", "[W-2-:Places] != {Places{!gen_bit"),
+    )
+    says = "one shift for all, the largest that fits; nothing is lost, signs stay"
+    values = {"W": w, "Count": count, "Bits": bits}
+    return Proof("formal_scale", "rdx_scale", says, values, "induction 5", broken)
 
 
 def outside(faces, change):
@@ -234,9 +252,11 @@ PROOFS = {
     "select-d1": select(4, 1, 3, 3),
     "select-certified": select(4, 4, 3, 1),
     "select-paper": select(4, 4, 3, 2),
-    "normalize": normalize(36, 36, 5, 7),
-    "normalize-first": normalize(64, 36, 5, 63),
-    "normalize-d2": normalize(48, 48, 3, 7),
+    "normalize": normalize(48, 18, 3, 7),
+    "normalize-product": normalize(64, 36, 5, 63, 4),
+    "normalize-product-d2": normalize(64, 36, 3, 63, 4),
+    "scale": scale(36, 5, 3),
+    "scale-n4": scale(48, 5, 4),
     "pick": Proof(
         "formal_pick",
         "rdx_pick",
@@ -257,6 +277,8 @@ PROOFS = {
             ("rdx_settle", "else if (spent_q) control_d.status = Done;", ""),
             ("rdx_settle", "control_qq.pending ? Again : Done", "Again"),
             ("rdx_settle", "last_q && changes_q && !point_outside", "changes_q && !point_outside"),
+            ("rdx_settle", "changes_q && !point_outside", "changes_q && point_outside"),
+            ("rdx_settle", "positive_q <= b[0] > 0;", "positive_q <= b[0] <= 0;"),
         ),
     ),
     "outside": outside(0, ("left = left << (1 << (i - 1));", "left = left << (1 << i);")),

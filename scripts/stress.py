@@ -41,16 +41,18 @@ LIMIT_CATEGORIES = (
 )  # fmt: skip
 # and of spirals, which have no W and D
 SPIRAL_LIMITS = ((1, 32), (2, 16), (4, 8), (3, 10), (4, 1), (1, 1))
-SPIRAL_LIMIT_CATEGORIES = ("any chord through any spiral", "thin spiral", "spiral, seam of tube and ball")
+SPIRAL_LIMIT_CATEGORIES = (
+    "any chord through any spiral", "thin spiral", "spiral, seam of tube and ball", "spiral, eye inside",
+)  # fmt: skip
 HEADER = (
     "category", "rule", "rays", "hit", "missed", "false", "wrong", "off", "in the band: missed", "band: false",
-    "band: wrong", "given up", "with a root", "rms", "median", "99.9 %", "max, ulp", "ill-conditioned", "max there",
-    "most steps",
+    "band: wrong", "given up", "with a root in the band", "with a root outside", "rms", "median", "99.9 %", "max, ulp",
+    "ill-conditioned", "max there", "most steps",
 )  # fmt: skip
 
 
 RULES = ("certified", "paper")
-COUNTS = HEADER[2:13]
+COUNTS = HEADER[2:14]
 FAILED = slice(2, 6)  # of them: missed, false, wrong, off
 
 
@@ -121,7 +123,7 @@ def run(job: Job) -> Result:
         into = out.setdefault(rule, nothing())
         bad = [j.missed, j.false, j.wrong]
         outside, within = ([(b & where).sum() for b in bad] for where in (~j.band, j.band))
-        given_up = [j.given_up.sum(), (j.given_up & j.hit).sum()]
+        given_up = [j.given_up.sum(), *((j.given_up & j.hit & where).sum() for where in (j.band, ~j.band))]
         into["counts"] += [len(steps), j.hit.sum(), *outside, j.off.sum(), *within, *given_up]
         compared = ~np.isnan(j.error) & ~j.band
         into["well"].append(j.error[compared & j.well].astype(np.float32))

@@ -182,8 +182,9 @@ def expected(dut, kinds, seen, item, form=None):
     segment = dict(segment)
     if after != RUN:
         segment["b"] = given["b"]
-        if after != HIT:  # of an item that waits rdx_leave compares where its cell begins with the limit
-            segment = given | (dict(depth_start=segment["depth_start"]) if after == AGAIN else {})
+        if after != HIT:
+            kept = dict(depth_start=segment["depth_start"]) if before == RUN and after == AGAIN else {}
+            segment = given | kept
     return dict(control_o=control, segment_o=segment)
 
 

@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 from raydix import stress, stress_spirals
+from raydix.chords_spiral import compile_chords, spiral_config, trace_spiral
 from raydix.config import Config
 from raydix.exact import changes
+from raydix.oracle_spiral import spiral_chord_roots
 from raydix.segments import Segments, trace_segments, whole
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -137,6 +139,45 @@ def test_moved_spiral_hits_are_failures(monkeypatch):
     monkeypatch.setattr(script, "trace_spiral", moved)
     part = script.run(script.Job("thin spiral", 0, 60, REFERENCE, 11)).rules["certified"]
     assert part["counts"][script.FAILED].sum() > 0.8 * part["counts"][1]
+
+
+@pytest.mark.parametrize(("n1", "steps"), [(1, 1), (4, 1), (3, 8)])
+@pytest.mark.parametrize("name", ["spiral, seam of tube and ball", "thin spiral"])
+def test_second_root_of_a_spiral_is_a_failure(name, n1, steps):
+    """The cell of the second root in place of the first one's: counted, however near they are."""
+    counted = 0
+    for surface, h, e in stress_spirals.CATEGORIES[name](np.random.default_rng(5), 150):
+        config = spiral_config(surface, n1, steps)
+        compiled = compile_chords(surface, h, e, config)
+        found = trace_spiral(compiled, config)
+        exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
+        left = stress.seen(surface, compiled, exact, config.digits)
+        assert not stress.judge_spiral(surface, compiled, found, exact, clearance, config).failed.any()
+        sure = (clearance >= compiled.epsilon) & ~np.isnan(left[:, 1])
+        t = np.where(sure, np.floor(np.nan_to_num(left[:, 1]) * 2.0**config.digits), found.t[:, 0]).astype(np.int64)
+        later = found._replace(t=np.concatenate([t[:, None], found.t[:, 1:]], axis=1))
+        judged = stress.judge_spiral(surface, compiled, later, exact, clearance, config)
+        assert judged.failed[sure].all()
+        counted += sure.sum()
+    assert counted > 10
+
+
+def test_spiral_root_beside_an_unsure_end_is_left_out():
+    """Eyes inside, few digits: a root in the first cell counts only where the sign at the chord's start is sure."""
+    left_out = 0
+    for surface, h, e in stress_spirals.CATEGORIES["spiral, eye inside"](np.random.default_rng(11), 600):
+        config = spiral_config(surface, 4, 1)
+        compiled = compile_chords(surface, h, e, config)
+        exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
+        left = stress.seen(surface, compiled, exact, 4)
+        pairs = stress.resolved(exact, 4)
+        changed = ~np.array([np.array_equal(a, b, equal_nan=True) for a, b in zip(left, pairs, strict=True)])
+        left_out += changed.sum()
+        near = np.abs(stress.spiral_value(surface, compiled.h)) < compiled.epsilon
+        assert changed.sum() <= near.sum() + 2  # and hardly any by a boundary inside
+        found = trace_spiral(compiled, config)
+        assert not stress.judge_spiral(surface, compiled, found, exact, clearance, config).failed.any()
+    assert left_out > 0
 
 
 def test_pair_in_one_cell_is_left_out():

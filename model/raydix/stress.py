@@ -30,8 +30,8 @@ class Judged(NamedTuple):
 
     hit, missed, false, wrong   (N) bool. missed: a root and nothing found; wrong: f turns between the first root and
           what was found, so that this belongs to another root
-    band    (N) bool, of those three: rounding explains it (`rounding.explained`), by f on what was passed over and at
-          the cell that was found
+    band    (N) bool, of those three, or given up: rounding explains it (`rounding.explained`), by f on what was passed
+          over and at the cell that was found
     off     (N) bool, none of those three, but not explained, or a well-conditioned root that is off by more than 2 ulp
     error   (N) float64, ulp of t from the first exact root, nan where nothing is to be compared
     well    (N) bool, the first root is well-conditioned: rounding cannot move it by more than `WELL` ulp
@@ -147,26 +147,62 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
 def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, clearance: np.ndarray, config: Config):
     """First roots of chords through a spiral against exact ones (N, M), nan-padded, with their clearance: Judged."""
     ulp = 2.0**-config.digits
-    every, exact = exact, resolved(exact, config.digits)
+    every, exact = exact, seen(surface, compiled, exact, config.digits)
     t, steps = found.t[:, 0], found.steps
-    hit, given_up = ~np.isnan(exact[:, 0]), (t < 0) & (steps == STEPS_MAX)
-    away = np.abs((t[:, None] + 0.5) - exact / ulp)
-    error = np.where(hit & (t >= 0), away[:, 0], np.nan)
+    row, hit = np.arange(len(t)), ~np.isnan(exact[:, 0])
+    given_up = (t < 0) & (steps == STEPS_MAX)
+    # the first root that must be seen, and those before it that rounding may show or not
+    first = np.where(hit, exact[:, 0], np.inf)
+    away = np.abs((t[:, None] + 0.5) - every / ulp)
+    allowed = every <= first[:, None]
+    near = np.where(allowed, away, np.inf)
+    which = near.argmin(axis=1)
+    error = np.where((t >= 0) & allowed.any(axis=1), near[row, which], np.nan)
     nearest = np.where(np.isnan(away), np.inf, away).argmin(axis=1)
     length = np.linalg.norm(compiled.e - compiled.h, axis=1)
-    slope = slopes(surface, compiled.h, compiled.e, np.where(hit, exact[:, 0], 0.0))
+    slope = slopes(surface, compiled.h, compiled.e, np.where(allowed.any(axis=1), every[row, which], 0.0))
     well = compiled.epsilon <= WELL * ulp * length * slope
-    wrong = (nearest > 0) & (error > 64) | well & (error > 2)
-    missed, false = hit & (t < 0) & ~given_up, ~hit & (t >= 0)
+    wrong = ~allowed[row, nearest] & (error > 64) | well & (error > 2)
+    missed, false = hit & (t < 0) & ~given_up, ~allowed.any(axis=1) & (t >= 0)
     bad = missed | false | wrong
-    # where the clearance is epsilon at least nothing can be explained
-    passed = spiral_passed(surface, compiled, t, every, exact, np.flatnonzero(bad), config.digits)
-    good = (clearance < compiled.epsilon) & passed
+    passed = spiral_passed(surface, compiled, t, every, exact, np.flatnonzero(bad | (first < t * ulp)), config.digits)
     cell = np.stack([spiral_value(surface, at(compiled, (t + k) * ulp)) for k in (0, 1)])
-    there = (cell.min(axis=0) <= compiled.epsilon) & (cell.max(axis=0) > -compiled.epsilon)
-    off = ~bad & (t >= 0) & ~there
-    good &= there | (t < 0)
-    return Judged(hit, missed, false, wrong, bad & good, off, np.where(wrong, np.nan, error), well, given_up)
+    there = (cell.min(axis=0) <= compiled.epsilon) & (cell.max(axis=0) > -compiled.epsilon) | (t < 0)
+    off = ~bad & ~(passed & there)
+    # where the clearance is epsilon at least nothing can be explained
+    band = (clearance < compiled.epsilon) & (bad & passed & there | given_up)
+    return Judged(hit, missed, false, wrong, band, off, np.where(wrong, np.nan, error), well, given_up)
+
+
+def seen(surface, compiled: Compiled, exact: np.ndarray, digits: int) -> np.ndarray:
+    """Exact roots (N, M) of chords without those that the ends of cells of the last level need not show.
+
+    Two in one cell (`resolved`); two in neighbouring cells, or one in the first or last cell, where the indicator at
+    the boundary between them, or at the end of the chord, is within epsilon.
+    """
+    out, last = resolved(exact, digits), (1 << digits) - 1
+
+    def unsure(i, boundary):
+        point = compiled.h[i] + boundary * 2.0**-digits * (compiled.e[i] - compiled.h[i])
+        return abs(float(spiral_value(surface, point))) < compiled.epsilon
+
+    cell = np.floor(out * 2.0**digits)
+    with np.errstate(invalid="ignore"):
+        rows = (np.diff(cell, axis=1) == 1).any(axis=1) | ((cell == 0) | (cell == last)).any(axis=1)
+    for i in np.flatnonzero(rows):
+        kept = [(float(t), int(c)) for t, c in zip(out[i], cell[i], strict=True) if not np.isnan(t)]
+        if kept and kept[0][1] == 0 and unsure(i, 0):
+            kept.pop(0)
+        if kept and kept[-1][1] == last and unsure(i, last + 1):
+            kept.pop()
+        k = 0
+        while k + 1 < len(kept):
+            if kept[k + 1][1] == kept[k][1] + 1 and unsure(i, kept[k + 1][1]):
+                del kept[k : k + 2]
+            else:
+                k += 1
+        out[i] = [t for t, _ in kept] + [np.nan] * (out.shape[1] - len(kept))
+    return out
 
 
 def at(compiled: Compiled, t: np.ndarray) -> np.ndarray:
@@ -177,16 +213,17 @@ def at(compiled: Compiled, t: np.ndarray) -> np.ndarray:
 def spiral_passed(surface, compiled: Compiled, t, every: np.ndarray, exact: np.ndarray, rows: np.ndarray, digits: int):
     """(N) bool, False only in ``rows``: the indicator stays above -epsilon, or below epsilon, on what was passed over.
 
-    It is sampled `SAMPLES` times between each two roots (``every``) that a cell of the last level does not hide
-    (``exact``, see `resolved`), and not in the cells that hide some.
+    It is sampled `SAMPLES` times between each two roots (``every``) that must be seen (``exact``, see `seen`), and of cells
+    that hide some at the borders only.
     """
     good = np.ones(len(t), bool)
     for i in rows:
         stop = 1.0 if t[i] < 0 else t[i] * 2.0**-digits
         marks = [0.0, *(r for r in exact[i] if r < stop), stop]
         x = np.concatenate([np.linspace(a, b, SAMPLES) for a, b in zip(marks, marks[1:], strict=False)])
-        hidden = np.setdiff1d(every[i], exact[i]) * 2.0**digits  # nan among them hides nothing
-        x = x[~np.isin(np.floor(x * 2.0**digits), np.floor(hidden))]
+        hidden = np.floor(np.setdiff1d(every[i], exact[i]) * 2.0**digits)  # nan among them hides nothing
+        borders = np.concatenate([hidden, hidden + 1]) * 2.0**-digits
+        x = np.concatenate([x[~np.isin(np.floor(x * 2.0**digits), hidden)], borders[borders <= stop]])
         f = spiral_value(surface, compiled.h[i] + x[:, None] * (compiled.e[i] - compiled.h[i]))
         good[i] = len(f) == 0 or f.min() > -compiled.epsilon or f.max() < compiled.epsilon
     return good

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rdx_halve: rounding of an average, ends, and that nothing leaves the hull of the inputs.
+// rdx_halve: every value is that of de Casteljau, each average half up; ends; and that nothing leaves the hull of the inputs.
 `default_nettype none
 `include "formal.svh"
 
@@ -46,10 +46,24 @@ module formal_halve #(
   `CHECK(p_last, right[D] == b_i[D])
   `CHECK(p_shared, left[D] == right[0])
 
-  // an average of two: exact sum, half up
-  wire signed [W:0] sum = (W + 1)'(b_i[0]) + (W + 1)'(b_i[1]);
-  wire signed [W:0] twice = (W + 1)'(left[1]) * 2;
-  `CHECK(p_half_up, twice == sum || twice == sum + (W + 1)'(1))
+  // each average is of its two neighbours in the row before: twice it is their sum, or one more; and is what the halves get
+  for (genvar r = 1; r <= D; r++) begin : gen_casteljau
+    for (genvar i = 0; i <= D - r; i++) begin : gen_average
+      logic signed [W-1:0] x, y;
+      if (r == 1) begin : gen_first
+        assign x = b_i[i];
+        assign y = b_i[i+1];
+      end else begin : gen_next
+        assign x = u_halve.gen_row[r-1].work_d[i];
+        assign y = u_halve.gen_row[r-1].work_d[i+1];
+      end
+      wire signed [W:0] sum = (W + 1)'(x) + (W + 1)'(y);
+      wire signed [W:0] twice = (W + 1)'(u_halve.gen_row[r].work_d[i]) * 2;
+      `CHECK(p_half_up, twice == sum + (W + 1)'(sum[0]))
+    end
+    `CHECK(p_left_value, left[r] == u_halve.gen_row[r].work_d[0])
+    `CHECK(p_right_value, right[D-r] == u_halve.gen_row[r].work_d[D-r])
+  end
 
   `REACH(r_tight, low == high)
   `REACH(r_whole,

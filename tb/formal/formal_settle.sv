@@ -43,13 +43,16 @@ module formal_settle #(
 
   // what came in when the result's item did
   control_t [SettleLatency-1:0] control_q;
-  logic [SettleLatency-1:0] dead_q, changes_q;
+  logic [SettleLatency-1:0] dead_q, changes_q, positive_q;
+  logic [SettleLatency-2:0] outside_q;  // the point comes a clock later; rdx_outside has a proof of its own
   logic [2:0] began_q = '0;
   wire changes = ($signed(b_i[0]) > 0) != ($signed(b_i[D]) > 0);
   always_ff @(posedge clk_i) begin
     control_q <= {control_q[SettleLatency-2:0], control_i};
     dead_q <= {dead_q[SettleLatency-2:0], dead_i};
     changes_q <= {changes_q[SettleLatency-2:0], changes};
+    positive_q <= {positive_q[SettleLatency-2:0], $signed(b_i[0]) > 0};
+    outside_q <= {outside_q[SettleLatency-3:0], u_settle.point_outside};
     began_q <= {began_q[1:0], 1'b1};
   end
   wire control_t was = control_q[SettleLatency-1];
@@ -69,7 +72,9 @@ module formal_settle #(
   `CHECK(p_passes, !began_q[2] || was.status == Run || got == was)
   `CHECK(p_level, !run || got.level == was.level + 5'(!dead && !last))
   `CHECK(p_run, !(run && got.status == Run) || (!dead && !last))
-  `CHECK(p_hit, !(run && got.status == Hit) || (!dead && last && changes_q[SettleLatency-1]))
+  wire hits = !dead && last && changes_q[SettleLatency-1] && !outside_q[SettleLatency-2];
+  `CHECK(p_hit, !run || (got.status == Hit) == hits)
+  `CHECK(p_enters, !run || got.enters == (hits ? positive_q[SettleLatency-1] : was.enters))
   `CHECK(p_again, !(run && got.status == Again) || (was.pending && (dead || last)))
   `CHECK(p_done, !(run && got.status == Done) || (&was.steps) || (!was.pending && (dead || last)))
   `CHECK(p_spent, !(run && (&was.steps)) || got.status inside {Hit, Done})
