@@ -2,7 +2,7 @@
 // A point as seen from the tube's centre at a place of the spiral, in the half plane of its azimuth; the tube's radius.
 //
 // Formats    place_i: turns, s8p22. rho_i, z_i: two clocks after it: K times distance from the axis, s4p22, and height,
-//            s2p22. across_o, along_o, size_o: s1p17, times 2^E; size_o is 0 without General.
+//            s2p22. across_o, along_o, size_o: s1p17, times 2^E; size_o has no meaning without General.
 // Rounding   floor.    Overflow   the outputs saturate; before, it cannot happen where there is a turn.
 // Timing     latency SwirlLegsLatency = 6 clocks, one point a clock; material_i two clocks before. No reset.
 // Model      model/raydix/swirl.py (swirl)

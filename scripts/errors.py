@@ -19,6 +19,7 @@ from raydix.compile import PRECISION, Quadratic
 from raydix.config import Config
 from raydix.error_bounds import halving, resolution
 from raydix.error_measure import coordinate_error, halving_error, indicator_errors, product_errors, word_errors
+from raydix.formats import COORD_ACC_WIDTH
 from raydix.rounding import bernstein, passed
 from raydix.segments import Segments, trace_segments, whole
 from raydix.surfaces import form
@@ -47,26 +48,34 @@ def halving_rows(count: int, seed: int, degrees=(4, 2), shapes=SHAPES):
             yield [f"halving below, D = {degree}, n1 = {n1}", "ulp of f", cases, 0.0, -least], least < 0
 
 
+WORDS = {
+    "quadrics": ("words of quadrics, where nearest to their bound", "unit"),
+    "coordinates": ("words of coordinates, where nearest to their bound", "unit"),
+    "ends": ("ends of the segment, cut by the raster", "2^-30"),
+}
+
+
 def word_rows(count: int, seed: int):
     """Random polynomials of the pixel that fit their accumulators, at pixels up to 1920: nearest to the bound."""
     dice = random.Random(seed)
-    worst = {0: (0.0, 1.0), 1: (0.0, 1.0)}
+    worst, cases = dict.fromkeys(WORDS, (0.0, 1.0)), dict.fromkeys(WORDS, 0)
     with mp.workprec(PRECISION):
 
-        def real(power):
-            """A number of that many pixels' factor, with more binary digits than a word has."""
-            return (mp.mpf(dice.getrandbits(200)) / mp.mpf(2) ** 199 - 1) * mp.mpf(2) ** (58 - 11 * power)
+        def real(bits, power):
+            """Any number below 2^bits, over the factor of that many pixels, with more binary digits than a word has."""
+            return (mp.mpf(dice.getrandbits(200)) / mp.mpf(2) ** 199 - 1) * mp.mpf(2) ** (bits - 11 * power)
 
         for _ in range(count):
-            x, y = dice.choice(
-                ((0, 0), (dice.randrange(4), dice.randrange(4)), (dice.randrange(1920), dice.randrange(1920)))
-            )
-            lanes = [Quadratic(*map(real, (0, 1, 1, 2, 2, 2)))], [tuple(map(real, (0, 1, 1)))]
-            for quadratic, (bound, found) in zip((1, 0), word_errors(*lanes, (x, y)), strict=True):
-                worst[quadratic] = max(worst[quadratic], (found, bound), key=lambda pair: pair[0] / pair[1])
-    for quadratic, name in ((1, "quadrics"), (0, "coordinates")):
-        found, bound = worst[quadratic]
-        yield [f"words of {name}, where nearest to their bound", "unit", count, bound, found], found > bound
+            near = dice.randrange(4), dice.randrange(4)
+            pixel = dice.choice(((0, 0), near, (dice.randrange(1920), dice.randrange(1920))))
+            quadratics = [Quadratic(*(real(58, p) for p in (0, 1, 1, 2, 2, 2))) for _ in range(9)]
+            linear = [tuple(real(COORD_ACC_WIDTH - 4, p) for p in (0, 1, 1)) for _ in range(6)]
+            for kind, bound, found in word_errors(quadratics, linear, pixel):
+                worst[kind] = max(worst[kind], (found, bound), key=lambda pair: pair[0] / pair[1])
+                cases[kind] += 1
+    for kind, (name, unit) in WORDS.items():
+        found, bound = worst[kind]
+        yield [name, unit, cases[kind], bound, found], found > bound
 
 
 def product_rows(count: int, seed: int):

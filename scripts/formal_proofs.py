@@ -36,7 +36,7 @@ def halve(w, d):
     return Proof("formal_halve", "rdx_halve", says, {"W": w, "D": d}, broken=broken, stages=d)
 
 
-def select(w, d, n1, rules):
+def select(w, d, n1, rules, below=0):
     """rdx_select against its specification."""
     clocks = 3 if rules == 1 else 3 + (n1 + 2) // 2
     broken = [("rdx_select", "& ~(&positive[j*D+:D+1])", "& ~(&positive[j*D+:D])")] if rules != 2 and d > 1 else []
@@ -45,8 +45,10 @@ def select(w, d, n1, rules):
         broken += [("rdx_guess", "right_second <= left_second", "right_second < left_second")]
     else:
         broken += [("rdx_select", "(last ? changes", "(!last ? changes")]
+    if below:
+        broken += [("rdx_select", "Below ? !cells_i[i][W-1]", "Below ? cells_i[i] > 0")]
     says = "first and second candidate are those of the rule in force, for all inputs"
-    values = {"W": w, "D": d, "N1": n1, "Rules": rules}
+    values = {"W": w, "D": d, "N1": n1, "Rules": rules, "Below": below}
     return Proof("formal_select", "rdx_select", says, values, f"induction {clocks + 2}", tuple(broken))
 
 
@@ -251,6 +253,7 @@ PROOFS = {
     "select-d2": select(4, 2, 3, 3),
     "select-d1": select(4, 1, 3, 3),
     "select-certified": select(4, 4, 3, 1),
+    "select-below": select(5, 4, 3, 1, 1),
     "select-paper": select(4, 4, 3, 2),
     "normalize": normalize(48, 18, 3, 7),
     "normalize-product": normalize(64, 36, 5, 63, 4),

@@ -132,25 +132,27 @@ def alone(score, surface, h, e) -> np.ndarray:
 def first_chords(score, name: str, spirals: int, count: int, dice):
     """Of a category the spiral that has the chord of the highest score, and its ``count`` best chords.
 
-    Chords of a spiral are compiled together here, which is much faster.
+    Chords of a spiral are compiled together here, which is much faster. Also whether the score told of a failure.
     """
-    best = None
+    best, failed = None, False
     for surface, h, e in stress_spirals.CATEGORIES[name](dice, spirals * stress_spirals.SHARE):
         try:
             s = score(surface, h, e)
         except Oversize:
             continue
+        failed |= bool(np.isinf(s).any())
         if best is None or s.max() > best[0]:
             kept = np.argsort(-s, kind="stable")[:count]
             best = float(s.max()), surface, h[kept], e[kept]
-    return best[1:]
+    return *best[1:], failed
 
 
 def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
-    """Chords of the highest score through a spiral of each category: [(surface, h, e, score)], and the first best."""
-    dice, kept, begin = np.random.default_rng(seed), [], 0.0
+    """Best chords of a spiral of each category: [(surface, h, e, score)], the first best score, whether any failed."""
+    dice, kept, begin, failed = np.random.default_rng(seed), [], 0.0, False
     for name in names:
-        surface, h, e = first_chords(score, name, SPIRALS_TRIED, count, dice)
+        surface, h, e, bad = first_chords(score, name, SPIRALS_TRIED, count, dice)
+        failed |= bad
         size = float(np.linalg.norm(e - h, axis=1).max())
         s = alone(score, surface, h, e)
         begin = max(begin, float(s.max()))
@@ -165,7 +167,7 @@ def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
             tick()
         i = int(np.argmax(s))
         kept.append((surface, h[i], e[i], float(s[i])))
-    return sorted(kept, key=lambda case: -case[3]), begin
+    return sorted(kept, key=lambda case: -case[3]), begin, failed
 
 
 def toml(items: dict, spirals: dict) -> str:
@@ -201,7 +203,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--write", action="store_true", help="renew tb/cases.toml and the table in docs/stress.md")
     args = parser.parse_args()
-    config, rows, items = Config(units=1), [], {}
+    config, rows, items, failed = Config(units=1), [], {}, False
     with Progress(console=Console(stderr=True)) as progress:
         for name, score in (("error", error_score), ("steps", steps_score)):
             bar = progress.add_task(name, total=args.generations)
@@ -216,13 +218,14 @@ def main() -> int:
         for name, (score, names) in SPIRALS.items():
             bar = progress.add_task(f"spirals: {name}", total=few * len(names))
             count = max(10, args.rays // 200)
-            spirals[name], begin = evolve_spiral(
+            spirals[name], begin, bad = evolve_spiral(
                 score, names, few, count, args.seed, lambda bar=bar: progress.advance(bar)
             )
+            failed |= bad
             tried = len(names) * (few * (count - count // 10) + SPIRALS_TRIED * stress_spirals.SHARE)
             most = spirals[name][0][3]
             rows.append([f"spirals: most {name}", str(few), f"{tried:,}", f"{begin:.3f}", f"{most:.3f}"])
-    failed = not np.isfinite(items["error"][1]).all()
+    failed |= not np.isfinite(items["error"][1]).all()
     for surface, h, e, _ in (case for kept in spirals.values() for case in kept):
         failed |= bool(judge_chords(surface, h[None], e[None]).failed.any())
     show_table(f"search, seed {args.seed}", HEADER, rows, ("search",), 120)

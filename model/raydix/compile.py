@@ -11,7 +11,7 @@ from typing import NamedTuple
 import mpmath as mp
 import numpy as np
 
-from .compile_spiral import Oversize, needs_general, spiral_words
+from .compile_spiral import Oversize, linear_lane, needs_general, spiral_words
 from .config import Config
 from .formats import (
     BOX_WIDTH,
@@ -266,7 +266,7 @@ def _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows
         unit.append(float(1 / factor))
         for v in (h, e):
             lane = (v[0][axis] - middle, v[1][axis], v[2][axis])
-            words += [int(mp.nint(w * factor * mp.mpf(2) ** (COORD_ACC_WIDTH - 2))) for w in lane]
+            words += linear_lane(lane, factor * mp.mpf(2) ** (COORD_ACC_WIDTH - 2))
     return words, box, tuple(origin), tuple(unit)
 
 

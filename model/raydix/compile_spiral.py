@@ -39,6 +39,11 @@ def tube_of(surface) -> Tube:
     return Tube(radius, growth, size, size_growth, pitch, turns, clear, mp.hypot(growth, pitch))
 
 
+def linear_lane(lane, factor) -> list[int]:
+    """Words of a linear forward-difference lane (value, per column, per row), times ``factor``."""
+    return [int(mp.nint(v * factor)) for v in lane]
+
+
 def needs_general(surface) -> bool:
     """Whether the evaluator for helices is not enough: a radius grows, or there is less than a turn."""
     return bool(surface.R_growth or surface.r_growth or surface.turns < 1)
@@ -210,5 +215,5 @@ def spiral_words(surface, h, e, low, high, cut, columns, rows, n1):
     for axis, (origin, factor) in enumerate(zip((0, 0, middle), factors, strict=True)):
         for v in (h, e):
             lane = (v[0][axis] - origin, v[1][axis], v[2][axis])
-            coordinates += [int(mp.nint(w * factor * mp.ldexp(1, COORD_ACC_WIDTH - 2))) for w in lane]
+            coordinates += linear_lane(lane, factor * mp.ldexp(1, COORD_ACC_WIDTH - 2))
     return coordinates, words, (0.0, 0.0, float(middle)), tuple(float(1 / f) for f in factors)

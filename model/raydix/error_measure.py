@@ -12,16 +12,29 @@ import mpmath as mp
 import numpy as np
 from flint import arb
 
-from . import fdiff
+from . import fdiff, raster
 from .cells import subdivide
 from .chords_spiral import compile_chords
 from .compile import PRECISION, Quadratic
+from .compile_spiral import linear_lane
 from .config import Config
 from .cordic import gain
 from .error_bounds import coordinates, halving, product_error, word
 from .exact_spiral import ends_of_words, indicator
-from .formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS, OPERAND_SHIFT, PRODUCT_DROP, QUAD_ACC_WIDTH, VECTOR_FRAC
+from .formats import (
+    ANGLE_ITERATIONS,
+    COORD_ACC_WIDTH,
+    COORD_LANES,
+    COORD_WIDTH,
+    LENGTH_ITERATIONS,
+    OPERAND_SHIFT,
+    PRODUCT_DROP,
+    QUAD_ACC_WIDTH,
+    VECTOR_FRAC,
+)
 from .halve import average
+from .item import SIZE, C
+from .kernel import zeros
 from .normalize import norm_limit, normalize, redundant_bits
 from .segments import products
 from .vecsum import GUARD, evaluate, new_lanes
@@ -67,27 +80,34 @@ def halving_error(b, digits: int, config: Config) -> tuple[float, Fraction, Frac
     return halving(n1, steps, degree, config.width), least, most
 
 
-def word_errors(quadratics: list[Quadratic], linear: list[tuple], pixel: tuple[int, int]) -> list[tuple[float, float]]:
-    """Lanes of exact coefficients at a pixel, by forward differences: (bound, |computed - exact|) of each, units.
+def word_errors(quadratics: list[Quadratic], linear: list[tuple], pixel: tuple[int, int]) -> list[tuple]:
+    """All lanes of exact coefficients at a pixel, by words and the raster: (kind, bound, |computed - exact|) of each.
 
-    quadratics  polynomials in units of the accumulator
-    linear      (first, per column, per row), likewise
+    quadratics  nine polynomials, in units of the accumulator
+    linear      six (first, per column, per row), likewise
+    Kinds: "quadrics" and "coordinates", both in units of the accumulator, and "ends", the raster's, units of s2p30.
     """
     x, y = pixel
+    state, first, quads = zeros((fdiff.ROWS, raster.LANES)), zeros(SIZE), zeros(9)
     with mp.workprec(PRECISION):
-        lanes = [(p.lane(1), 1, p.c00 + p.c10 * x + p.c01 * y + p.c20 * x * x + p.c11 * x * y + p.c02 * y * y)
-                 for p in quadratics]  # fmt: skip
-        lanes += [([int(mp.nint(v)) for v in p], 0, p[0] + p[1] * x + p[2] * y) for p in linear]
-        state = np.zeros((fdiff.ROWS, len(lanes)), np.int64)
-        for lane, (words, quadratic, _) in enumerate(lanes):
-            fdiff.load(state, lane, np.array([*words, 0, 0, 0], np.int64), 0, quadratic)
+        words = [[*linear_lane(p, 1), 0, 0, 0] for p in linear] + [p.lane(1) for p in quadratics]
+        for lane, mine in enumerate(words):
+            fdiff.load(state, lane, np.array(mine, np.int64), 0, lane >= COORD_LANES)
         for _ in range(y):
             fdiff.next_row(state)
         for _ in range(x):
             fdiff.next_pixel(state)
-        values = state[fdiff.VALUE].tolist()
-        return [(word(x, y, quadratic), float(abs(value - exact)))
-                for value, (_, quadratic, exact) in zip(values, lanes, strict=True)]  # fmt: skip
+        raster.sample(state, first, quads)
+        out, cut = [], COORD_ACC_WIDTH - COORD_WIDTH
+        for p, value in zip(quadratics, quads.tolist(), strict=True):
+            exact = p.c00 + p.c10 * x + p.c01 * y + p.c20 * x * x + p.c11 * x * y + p.c02 * y * y
+            out.append(("quadrics", word(x, y, True), float(abs(value - exact))))
+        for lane, p in enumerate(linear):
+            exact, end = p[0] + p[1] * x + p[2] * y, int(first[C + lane % 2 * 3 + lane // 2])
+            off = float(abs(int(state[fdiff.VALUE, lane]) - exact))
+            out.append(("coordinates", word(x, y, False), off))
+            out.append(("ends", 1 + word(x, y, False) * 2.0**-cut, float(abs(end - mp.ldexp(exact, -cut)))))
+        return out
 
 
 def product_errors(quads: np.ndarray, config: Config) -> list[tuple[float, float]]:

@@ -213,8 +213,8 @@ def at(compiled: Compiled, t: np.ndarray) -> np.ndarray:
 def spiral_passed(surface, compiled: Compiled, t, every: np.ndarray, exact: np.ndarray, rows: np.ndarray, digits: int):
     """(N) bool, False only in ``rows``: the indicator stays above -epsilon, or below epsilon, on what was passed over.
 
-    It is sampled `SAMPLES` times between each two roots (``every``) that must be seen (``exact``, see `seen`), and of cells
-    that hide some at the borders only.
+    It is sampled `SAMPLES` times between each two roots (``every``) that must be seen (``exact``, see `seen`), and of
+    cells that hide some at the borders only.
     """
     good = np.ones(len(t), bool)
     for i in rows:

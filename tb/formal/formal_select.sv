@@ -8,6 +8,7 @@ module formal_select #(
     parameter int unsigned D = 2,
     parameter int unsigned N1 = 2,
     parameter int unsigned Rules = 3,
+    parameter bit Below = 1'b0,
     localparam int unsigned J = 1 << N1
 ) (
     input wire logic                clk_i,
@@ -26,7 +27,8 @@ module formal_select #(
       .W(W),
       .D(D),
       .N1(N1),
-      .Rules(Rules)
+      .Rules(Rules),
+      .Below(Below)
   ) u_select (
       .clk_i,
       .cells_i,
@@ -43,10 +45,12 @@ module formal_select #(
   // ---- Case 1: the boundary of least magnitude, the first of equals; of the two cells beside it the one of the smaller
   // difference, the right one of equals ----
   localparam type number_t = logic signed [W+1:0];  // magnitudes and differences, none wraps
+  number_t value[J*D+1];  // with Below = 1 what comes in is less by one
+  always_comb for (int i = 0; i <= J * D; i++) value[i] = number_t'(cells_i[i]) + number_t'(Below);
   number_t boundary[J+1], magnitude[J+1], difference[J];
   always_comb begin
     for (int j = 0; j <= J; j++) begin
-      boundary[j]  = number_t'(cells_i[j*D]);
+      boundary[j]  = value[j*D];
       magnitude[j] = boundary[j] < 0 ? -boundary[j] : boundary[j];
     end
     for (int j = 0; j < J; j++) begin
@@ -80,8 +84,8 @@ module formal_select #(
       logic above, below;
       above = 1'b0;
       below = 1'b0;
-      for (int i = 0; i <= D; i++) if (cells_i[j*D+i] > 0) above = 1'b1;
-      for (int i = 0; i <= D; i++) if (cells_i[j*D+i] <= 0) below = 1'b1;
+      for (int i = 0; i <= D; i++) if (value[j*D+i] > 0) above = 1'b1;
+      for (int i = 0; i <= D; i++) if (value[j*D+i] <= 0) below = 1'b1;
       holds[j]   = above && below;
       crosses[j] = (boundary[j] > 0 && boundary[j+1] <= 0) || (boundary[j] <= 0 && boundary[j+1] > 0);
     end
