@@ -160,6 +160,17 @@ async def equals_golden(dut, scene):
 
 
 @cocotb.test
+async def papers_rule(dut):
+    """The same by the paper's rule, of quartics and spirals."""
+    random = bench.rng()
+    await start(dut)
+    for scene in ("torus", spirals.MIXED):
+        frame = trace_golden(compiled_frame(scene, "paper"), CONFIG.with_(rule="paper"))
+        assert frame.counts()["hits"] > 10
+        assert await compare(dut, random, frame) == [0, 0, 0]
+
+
+@cocotb.test
 async def full_queues_lose_nothing(dut):
     """No hit is taken for so long that rays wait in all queues and for them."""
     await start(dut)
@@ -226,7 +237,7 @@ ALGEBRAIC = ["equals_golden/scene=torus", "hidden_pixels_have_no_ray/scene=galle
 ALGEBRAIC += [f"dropped_rays_have_no_hit/skips={skips}" for skips in ("rootless", "boxes", "both")]
 EVERY = [f"equals_golden/scene={scene}" for scene in ("glass", spirals.MIXED)]
 EVERY += [f"fewer_steps/k_stop={k}/skips={skips}" for k in (1, 3) for skips in ("none", "some")]
-EVERY += ["full_queues_lose_nothing", *ALGEBRAIC, f"hidden_pixels_have_no_ray/scene={spirals.MIXED}"]
+EVERY += ["papers_rule", "full_queues_lose_nothing", *ALGEBRAIC, f"hidden_pixels_have_no_ray/scene={spirals.MIXED}"]
 
 
 def test_cast():
