@@ -57,8 +57,8 @@ def test_cases_are_apart():
 
 def test_search_climbs():
     """Forty generations find a larger error than the first has, and than as many items drawn anew have."""
-    b, s, begin = search.evolve(search.error_score, CONFIG, 40, 400, 3, lambda: None)
-    anew = search.first_items(np.random.default_rng(4), 41 * 400, CONFIG)
+    b, s, begin = search.evolve(search.error_score, CONFIG, 40, 800, 3, lambda: None)
+    anew = search.first_items(np.random.default_rng(4), 41 * 800, CONFIG)
     assert s[0] > max(begin, search.error_score(anew, CONFIG).max())
     assert np.isfinite(s).all()
     assert np.abs(b).max() <= 1 << 35
