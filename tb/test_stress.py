@@ -162,15 +162,16 @@ def test_second_root_of_a_spiral_is_a_failure(name, n1, steps):
     assert counted > 10
 
 
-def test_spiral_root_beside_an_unsure_end_is_left_out():
+@pytest.mark.parametrize("n1", [1, 4])
+def test_spiral_root_beside_an_unsure_end_is_left_out(n1):
     """Eyes inside, few digits: a root in the first cell counts only where the sign at the chord's start is sure."""
     left_out = 0
-    for surface, h, e in stress_spirals.CATEGORIES["spiral, eye inside"](np.random.default_rng(11), 600):
-        config = spiral_config(surface, 4, 1)
+    for surface, h, e in stress_spirals.CATEGORIES["spiral, eye inside"](np.random.default_rng(11), 4000):
+        config = spiral_config(surface, n1, 1)
         compiled = compile_chords(surface, h, e, config)
         exact, clearance = spiral_chord_roots(surface, compiled.h, compiled.e)
-        left = stress.seen(surface, compiled, exact, 4)
-        pairs = stress.resolved(exact, 4)
+        left = stress.seen(surface, compiled, exact, n1)
+        pairs = stress.resolved(exact, n1)
         changed = ~np.array([np.array_equal(a, b, equal_nan=True) for a, b in zip(left, pairs, strict=True)])
         left_out += changed.sum()
         near = np.abs(stress.spiral_value(surface, compiled.h)) < compiled.epsilon
