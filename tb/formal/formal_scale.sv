@@ -35,7 +35,7 @@ module formal_scale #(
   end
   assign was = line_q[Stages-1];
 
-  logic [Limit:0] fits;
+  logic [ Limit:0] fits;
   logic [Bits-1:0] most;
   always_comb begin
     most = '0;
