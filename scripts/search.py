@@ -144,6 +144,8 @@ def first_chords(score, name: str, spirals: int, count: int, dice):
         if best is None or s.max() > best[0]:
             kept = np.argsort(-s, kind="stable")[:count]
             best = float(s.max()), surface, h[kept], e[kept]
+    if best is None:
+        sys.exit(f"search: {name}: found {spirals} spirals that are all refused; allowed: another --seed")
     return *best[1:], failed
 
 

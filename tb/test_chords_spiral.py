@@ -7,8 +7,15 @@ import random
 import numpy as np
 import pytest
 
-from raydix.chords_spiral import chords_through, compile_chords, judge, random_spiral, slopes, trace_spiral
-from raydix.compile_spiral import needs_general
+from raydix.chords_spiral import (
+    chords_through,
+    compile_chords,
+    judge,
+    random_spiral,
+    slopes,
+    spiral_config,
+    trace_spiral,
+)
 from raydix.config import Config
 from raydix.formats import FORM_INDEX, STEPS_MAX, ZONES
 from raydix.oracle_spiral import spiral_chord_roots
@@ -33,8 +40,8 @@ def cases():
 
 def config_of(surface, n1=3, steps=8, rule="certified"):
     """The configuration that the surface needs; other n1 are tried with the general evaluator only."""
-    vecsum = "general" if needs_general(surface) or (n1, steps) != (3, 8) else "helix"
-    return Config(n1, steps, units=1, degree=0, vecsum=vecsum, rule=rule)
+    config = spiral_config(surface, n1, steps, rule)
+    return config if (n1, steps) == (3, 8) else config.with_(vecsum="general")
 
 
 @pytest.mark.parametrize(("n1", "steps"), [(2, 10), (3, 8), (4, 6)])
