@@ -32,8 +32,8 @@ package rdx_pkg;
   localparam int unsigned RootsWidth = 3;
   // u5p0: box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts
   localparam int unsigned BoxWidth = 5;
-  // u16p0: steps taken; at the largest value the item is given up
-  localparam int unsigned StepsWidth = 16;
+  // u20p0: steps taken; at the largest value the item is given up
+  localparam int unsigned StepsWidth = 20;
   // x, y, z at the near end h and the far end e
   localparam int unsigned CoordLanes = 6;
   // s5p33: lengths in the vector-sum evaluator; the indicator

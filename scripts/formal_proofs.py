@@ -137,7 +137,7 @@ def ring(parameters, always, **rest):
             ),
         )
     values = parameters | {"Always": always}
-    short = ("rdx_pkg", "int unsigned StepsWidth = 16;", "int unsigned StepsWidth = 2;")
+    short = ("rdx_pkg", "int unsigned StepsWidth = 20;", "int unsigned StepsWidth = 2;")
     narrow = ("rdx_pkg", "int unsigned LimitWidth = 18;", "int unsigned LimitWidth = 2;")
     return Proof(
         "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short, narrow),

@@ -43,7 +43,7 @@ PIXEL_WIDTH = 12
 SURFACE_WIDTH = 6
 ROOTS_WIDTH = 3
 BOX_WIDTH = 5
-STEPS_WIDTH = 16
+STEPS_WIDTH = 20
 COORD_LANES = 6
 HEADER_WORDS = 3
 QUADRIC_WORDS = HEADER_WORDS + 3 * COORD_LANES + 18
@@ -180,7 +180,7 @@ TABLE = (
     Constant("SurfaceWidth", SURFACE_WIDTH, "u6p0", "surface number"),
     Constant("RootsWidth", ROOTS_WIDTH, "u3p0", "roots still wanted, 1 to 4"),
     Constant("BoxWidth", BOX_WIDTH, "u5p0", "box exponent m: the box is [-2^(1-m), 2^(1-m)); 0: no face cuts"),
-    Constant("StepsWidth", STEPS_WIDTH, "u16p0", "steps taken; at the largest value the item is given up"),
+    Constant("StepsWidth", STEPS_WIDTH, "u20p0", "steps taken; at the largest value the item is given up"),
     Constant("CoordLanes", COORD_LANES, "", "x, y, z at the near end h and the far end e"),
     Constant("VectorWidth", VECTOR_WIDTH, "s5p33", "lengths in the vector-sum evaluator; the indicator"),
     Constant("VectorFrac", VECTOR_FRAC, "", "fractional bits of such a length"),

@@ -17,7 +17,7 @@ class SurfaceHits:
     depth  int32 (h, w, R), s1p31 of the frame's depth scale; 0 where t is -1
     point  int32 (h, w, R, 3), s2p30 of the surface's local scale; 0 where t is -1
     enters uint8 (h, w, R), 1 where the indicator is positive before the hit; 0 where t is -1
-    steps  uint16 (h, w), steps that the item took
+    steps  uint32 (h, w), steps that the item took
     """
 
     surface: CompiledSurface
@@ -38,7 +38,7 @@ class SurfaceHits:
             np.zeros(shape, np.int32),
             np.zeros((*shape, 3), np.int32),
             np.zeros(shape, np.uint8),
-            np.zeros(shape[:2], np.uint16),
+            np.zeros(shape[:2], np.uint32),
         )
 
 

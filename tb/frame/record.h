@@ -12,3 +12,6 @@ struct Record {
     std::uint32_t steps;
 };
 static_assert(sizeof(Record) == 32);
+
+// Clocks without an event after which a run ends: more than the longest ray takes, 2^20 steps of less than 64 clocks
+constexpr std::uint64_t Patience = 1ull << 26;

@@ -50,7 +50,7 @@ static Record record_of(const Wide& hit) {
     Record r{};
     int at = 0;
     auto next = [&](int width) { return at += width, field(hit, at - width, width); };
-    r.steps = next(16);
+    r.steps = next(20);
     r.enters = next(1);
     for (int i = 0; i < 3; i++) r.point[i] = static_cast<std::int32_t>(next(32));
     r.depth = static_cast<std::int32_t>(next(32));
@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
         if (r) state = Idle;
         cycles++;
         if (pixels_seen > wanted) return fail("more pixels than the frames have");
-        if (++quiet > 1000000) return fail("nothing moved for 1000000 cycles");
+        if (++quiet > Patience) return fail("nothing moved for 2^26 cycles");
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     top.final();
