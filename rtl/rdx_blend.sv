@@ -6,9 +6,9 @@
 //
 // Formats    all numbers u1p16, at most 1. valid_i: a layer comes; first_i, last_i: of its pixel; Layers = 1: both are taken for 1.
 // Rounding   half up, each product; what is let through: down, because the loop from layer to layer is one clock.
-// Overflow   the sum is cut to 1 at the end: part and what is let through are together at most T and half an ulp, so that n layers
-//            sum up to 1 and n ulp; that fits 18 bits.
-// Timing     latency rdx_pkg::BlendLatency = 9 clocks from the last layer, a layer a clock.
+// Overflow   none: part <= T a + 1/2 and what is let through <= T (1 - a) are whole numbers, so both together are T at most. Shares
+//            of a part are no more than it, as a colour is at most 1; so the sum over all layers and the background is 1 at most.
+// Timing     latency rdx_pkg::BlendLatency = 8 clocks from the last layer, a layer a clock.
 // Reset      of valid_o only.
 // Model      model/raydix/blend.py
 `default_nettype none
@@ -88,16 +88,14 @@ module rdx_blend #(
   );
   for (genvar channel = 0; channel < 3; channel++) begin : gen_channel
     unit_product_t term_q, behind_q;
-    unit_t share_q, rest_qq;
-    logic [UnitWidth:0] sum_q, total_q;
+    unit_t share_q, rest_qq, sum_q;
     always_ff @(posedge clk_i) begin
       term_q <= unit_product_t'(part_q) * unit_product_t'(color[channel]);
       share_q <= rounded(term_q);
-      sum_q <= (Layers == 1 || first_q[6] ? '0 : sum_q) + (UnitWidth + 1)'(share_q);
+      sum_q <= (Layers == 1 || first_q[6] ? '0 : sum_q) + share_q;
       behind_q <= unit_product_t'(through[0]) * unit_product_t'(background_i[channel]);
       rest_qq <= rounded(behind_q);
-      total_q <= sum_q + (UnitWidth + 1)'(rest_qq);
-      linear_o[channel] <= total_q > (UnitWidth + 1)'(One) ? One : total_q[UnitWidth-1:0];
+      linear_o[channel] <= sum_q + rest_qq;
     end
   end
   wire unused = &{1'b0, first_i, first_q};

@@ -64,7 +64,7 @@ localparam int unsigned MatrixLatency = 3;
 localparam int unsigned QuadricLatency = MatrixLatency + 7;
 localparam int unsigned RsqrtLatency = 5;
 localparam int unsigned LightLatency = 27;
-localparam int unsigned BlendLatency = 9;
+localparam int unsigned BlendLatency = 8;
 localparam int unsigned SrgbLatency = 3;
 
 // Latency of rdx_gradient: constants, slopes, with quartics values and their products, sum, scaling.

@@ -29,7 +29,7 @@ from shading import encoded, linear_picture, with_enters
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 LAYER = bench.Struct(("shade", 1), ("first", 1), ("last", 1), ("enters", 1), ("surface", SURFACE_WIDTH),
                      ("point", -COORD_WIDTH, 3))  # fmt: skip
-LATENCY = {2: 12 + 27 + 9 + 3, 4: 21 + 27 + 9 + 3}
+LATENCY = {2: 12 + 27 + 8 + 3, 4: 21 + 27 + 8 + 3}
 
 
 def shaded(layers, materials, ambient, background, degree):

@@ -2,8 +2,8 @@
 """Layers of a pixel from front to back (mirrors ``rtl/rdx_blend.sv``). All numbers are u1p16.
 
 A layer takes part = T a of the light, rounded half up, and lets T (1 - a) through, rounded down: from layer to layer
-there is one clock, which has no time for more than the product. So part and what is let through are together at most T
-and half an ulp, and a pixel of n layers sums up to 1 and n ulp at most, which is cut to 1.
+there is one clock, which has no time for more than the product. Both are whole numbers, so that together they are T at
+most, and a share of a part, whose colour is at most 1, is no more than the part: a pixel never sums up to more than 1.
 """
 
 from .formats import UNIT_FRAC
@@ -29,6 +29,6 @@ def add_layer(total, through, color, opacity):
 
 @kernel
 def finish(total, through, background):
-    """Add the background and cut to 1."""
+    """Add the background."""
     for channel in range(3):
-        total[channel] = min(total[channel] + times(through, background[channel]), ONE)
+        total[channel] += times(through, background[channel])
