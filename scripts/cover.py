@@ -2,6 +2,7 @@
 """Coverage of each module of the RTL by its own test: blocks and branches, toggled bits, functional bins."""
 
 import argparse
+import math
 import os
 import subprocess
 import sys
@@ -19,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "coverage.md"
 SEED = "1"  # the same stimuli each time, so that results can be kept
 KINDS = ("block", "toggle", "bin")
-HEADER = ("module", "runs", "blocks", "waived", "toggles", "waived", "toggled", "bins", "waived")
+HEADER = ("module", "runs", "blocks", "waived", "toggles", "constant", "left", "toggled", "bins", "waived")
 
 
 def modules(wanted):
@@ -58,10 +59,16 @@ def collect(names, files):
 def texts(name, runs, row):
     """Cells of a module's row."""
     block, toggle, bins = row["block"], row["toggle"], row["bin"]
-    share = toggle.hit / (toggle.total - toggle.waived) if toggle.total > toggle.waived else 1.0
-    counts = [f"{block.hit}/{block.total}", str(block.waived)]
-    counts += [f"{toggle.hit:,}/{toggle.total:,}", f"{toggle.waived:,}", f"{100 * share:.2f} %"]
-    return [name, str(runs), *counts, f"{bins.hit}/{bins.total}", str(bins.waived)]
+    can = toggle.total - toggle.constant
+    share = math.floor(10_000 * toggle.hit / can) / 100 if can else 100.0
+    counts = [f"{block.hit}/{block.total}", str(block.constant + block.left)]
+    counts += [f"{toggle.hit:,}/{toggle.total:,}", f"{toggle.constant:,}", f"{toggle.left:,}", f"{share:.2f} %"]
+    return [name, str(runs), *counts, f"{bins.hit}/{bins.total}", str(bins.constant + bins.left)]
+
+
+def numbers(cell):
+    """The counts in a cell, as in 1,024/2,048."""
+    return [int(part.replace(",", "")) for part in cell.split("/")]
 
 
 def total(lines):
@@ -69,9 +76,9 @@ def total(lines):
 
     def row(line):
         """The counts of a line."""
-        cells = [[int(part.replace(",", "")) for part in line[i].split("/")] for i in (2, 3, 4, 5, 7, 8)]
-        pairs = zip(cells[::2], cells[1::2], strict=True)
-        return [coverpoints.Row(*counts, *waived) for counts, waived in pairs]
+        block, waived, toggle, constant, left, _, bins, idle = line[2:]
+        kinds = (block, waived, "0"), (toggle, constant, left), (bins, idle, "0")
+        return [coverpoints.Row(*(n for cell in cells for n in numbers(cell))) for cells in kinds]
 
     sums = [coverpoints.Row(*map(sum, zip(*those, strict=True))) for those in zip(*map(row, lines), strict=True)]
     return texts("all", sum(int(line[1]) for line in lines), dict(zip(KINDS, sums, strict=True)))

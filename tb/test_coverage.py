@@ -105,11 +105,11 @@ def test_gaps_of_a_module(small):
     points = {p: n for p, n in coverpoints.merge(results).items() if p.module == "small"}
     place = folder.relative_to(ROOT)
     wanted = WANTED.format(file=place / "rdx_small.sv", cover=place / "rdx_small_cover.sv")
-    assert sorted(coverpoints.gaps(points, set())) == sorted(wanted.splitlines())
-    counts = coverpoints.rows(points, set())["small"]
-    assert counts["block"] == Row(3, 4, 0)
-    assert counts["toggle"] == Row(15, 20, 0)
-    assert counts["bin"] == Row(5, 7, 0)
+    assert sorted(coverpoints.gaps(points, {})) == sorted(wanted.splitlines())
+    counts = coverpoints.rows(points, {})["small"]
+    assert counts["block"] == Row(3, 4, 0, 0)
+    assert counts["toggle"] == Row(15, 20, 0, 0)
+    assert counts["bin"] == Row(5, 7, 0, 0)
 
 
 def test_runs_are_merged(small):
@@ -117,7 +117,7 @@ def test_runs_are_merged(small):
     _, results = small
     each = [coverpoints.merge([result]) for result in results]
     both = coverpoints.merge(results)
-    gaps = [len(coverpoints.gaps(points, set())) for points in (*each, both)]
+    gaps = [len(coverpoints.gaps(points, {})) for points in (*each, both)]
     assert gaps[2] < min(gaps[:2])
     assert both == {p: each[0].get(p, 0) + each[1].get(p, 0) for p in each[0] | each[1]}
 
@@ -132,49 +132,54 @@ WAIVERS = """
 [[waiver]]
 module = "small"
 kind = "toggle"
+constant = false
 points = ['count_i\\[2\\]', 'sum_o']
 reason = "no stimulus has it"
 [[waiver]]
 module = "small"
 kind = "block"
+constant = true
 points = ["end else if .count_i == 4'd9. begin"]
 reason = "9 does not come"
 [[waiver]]
 module = "*"
 kind = "toggle"
+constant = true
 points = ["rst_ni", "nowhere"]
 reason = "reset only at the start"
 [[waiver]]
 module = "another"
 kind = "block"
+constant = true
 points = ["x"]
 reason = "of another run"
 """
 
 
 def test_waivers(small, tmp_path):
-    """A waived point is no gap and no hit; a pattern that waives nothing is reported; other modules' are left alone."""
+    """A waived point is no gap and no hit, and constant or left; a pattern that waives nothing is reported; other modules' are left alone."""
     _, results = small
     points = {p: n for p, n in coverpoints.merge(results).items() if p.module == "small"}
     waived, idle = coverpoints.apply(points, waiver(tmp_path, WAIVERS))
     assert [line.split()[1] for line in coverpoints.gaps(points, waived)] == ["bin", "bin", "toggle"]
     assert idle == ["small: the waiver of toggle 'sum_o' waives nothing"]
-    assert coverpoints.rows(points, waived)["small"]["toggle"] == Row(15, 20, 3)
+    assert coverpoints.rows(points, waived)["small"]["toggle"] == Row(15, 20, 1, 2)
 
 
 @pytest.mark.parametrize(
     ("found", "complaint"),
     [
-        ("kind = 'toggle'", "waiver 2: found module, kind; needed: module, kind .*, points, reason"),
-        ("kind = 'bits'\npoints = []\nreason = 'x'", "needed: .*block, toggle or bin"),
-        ("kind = 'bin'\npoints = []\nreason = ' '", "waiver 2: a reason is needed"),
-        ("kind = 'bin'\npoints = ['(']\nreason = 'x'", "waiver 2: the pattern '\\('"),
+        ("kind = 'toggle'", "waiver 2: found module, kind; needed: module, kind .*, constant .*, points, reason"),
+        ("kind = 'bits'\nconstant = true\npoints = []\nreason = 'x'", "needed: .*block, toggle or bin"),
+        ("kind = 'bin'\nconstant = 1\npoints = []\nreason = 'x'", "needed: .*true or false"),
+        ("kind = 'bin'\nconstant = true\npoints = []\nreason = ' '", "waiver 2: a reason is needed"),
+        ("kind = 'bin'\nconstant = false\npoints = ['(']\nreason = 'x'", "waiver 2: the pattern '\\('"),
         ("kind = ", "Invalid value"),
     ],
 )
 def test_waiver_that_is_none(tmp_path, found, complaint):
     """A mistake in the file is named."""
-    good = "[[waiver]]\nmodule = 'a'\nkind = 'bin'\npoints = ['x']\nreason = 'y'\n"
+    good = "[[waiver]]\nmodule = 'a'\nkind = 'bin'\nconstant = true\npoints = ['x']\nreason = 'y'\n"
     with pytest.raises(ValueError, match=complaint):
         waiver(tmp_path, f"{good}[[waiver]]\nmodule = 'a'\n{found}\n")
 
@@ -193,7 +198,7 @@ def test_exit_status(small, tmp_path, monkeypatch, capsys):
     command = script()
     every = tmp_path / "waivers.toml"
     kinds = "".join(
-        f"[[waiver]]\nmodule = 'small'\nkind = '{kind}'\npoints = ['.*']\nreason = 'x'\n"
+        f"[[waiver]]\nmodule = 'small'\nkind = '{kind}'\nconstant = false\npoints = ['.*']\nreason = 'x'\n"
         for kind in ("block", "toggle", "bin")
     )
     monkeypatch.setattr(coverpoints, "RESULTS", results[0].parent)

@@ -8,10 +8,11 @@ import bench
 import feeding
 import looks
 import walking
-from raydix.raster import OPAQUE_AT, ROOTS_AT
+from raydix.raster import OPAQUE_AT, PAPER_AT, ROOTS_AT
 from test_raster import QUADRIC, QUARTIC, VECTOR
 
-ROOTS, RECTANGLE = 5, 6  # errors
+ROOTS, RECTANGLE, RULE = 5, 6, 9  # errors
+CERTIFIED, BOTH = 1, 3  # rules that are built
 
 
 class Side:
@@ -76,9 +77,17 @@ async def feed(dut, random, frame, **options):
     return result, sides[0]
 
 
+def built(dut, frame):
+    """The frame, of a rule that is built."""
+    if bench.parameter(dut, "Rules") == CERTIFIED:
+        for descriptor in frame.descriptors:
+            descriptor[0] &= ~(1 << PAPER_AT)
+    return frame
+
+
 async def whole(dut, random, frame, **options):
     """A frame without an error, compared with all that must happen."""
-    result, side = await feed(dut, random, frame, **options)
+    result, side = await feed(dut, random, built(dut, frame), **options)
     walking.compare(frame, result)
     assert not side.rows and not side.words
     return result
@@ -126,15 +135,17 @@ async def each_error_ends_the_frame(dut):
     await walking.rest(dut)
     for count in counts(dut):
         for slot in {0, count - 1}:
-            for error in (ROOTS, RECTANGLE):
-                frame = walking.random_frame(random, count, kinds(dut))
+            for error in (ROOTS, RECTANGLE, RULE)[: 3 if bench.parameter(dut, "Rules") == CERTIFIED else 2]:
+                frame = built(dut, walking.random_frame(random, count, kinds(dut)))
                 if error == ROOTS:
                     frame.descriptors[slot][0] |= 7 << ROOTS_AT
+                elif error == RULE:
+                    frame.descriptors[slot][0] |= 1 << PAPER_AT
                 else:
                     frame.descriptors[slot][1] = frame.width << 32
                 if random.getrandbits(1):  # a later error does not count
                     frame.descriptors[-1][0] |= 7 << ROOTS_AT
-                    error = ROOTS if slot == count - 1 else error
+                    error = ROOTS if slot == count - 1 and error == RECTANGLE else error
                 result, side = await feed(dut, random, frame)
                 looks.differs(slot, {}, error=(error, result.error), slot=(slot, side.fault_slot))
                 assert not result.events and not side.count
@@ -161,7 +172,7 @@ async def abort_and_empty_frame(dut):
     random = bench.rng()
     await walking.rest(dut)
     for _ in range(12):
-        frame = walking.random_frame(random, random.choice(counts(dut)), kinds(dut))
+        frame = built(dut, walking.random_frame(random, random.choice(counts(dut)), kinds(dut)))
         result, side = await feed(dut, random, frame, abort=random.randrange(1, 200), stall=0.2)
         assert [event for event in result.events if event[0] == "end"] == [("end", y) for y in range(frame.height)]
         assert result.after_abort <= 1 and not side.words
@@ -179,7 +190,11 @@ async def largest_frame(dut):
     await whole(dut, random, walking.Frame(random, 1, 1, [(0, 0, 0, 0)], [kind]))
 
 
-CASES = [dict(D=4, Vecsum=2, Slots=5), dict(D=2, Vecsum=0, Slots=1), dict(D=0, Vecsum=1, Slots=64)]
+CASES = [
+    dict(D=4, Vecsum=2, Slots=5, Rules=BOTH),
+    dict(D=2, Vecsum=0, Slots=1, Rules=CERTIFIED),
+    dict(D=0, Vecsum=1, Slots=64, Rules=CERTIFIED),
+]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The processor as a host and a display see it: AXI4-Lite, AXI4-Stream, stalls, resets, illegal programs."""
 
+import dataclasses
 import functools
 import logging
 
@@ -19,6 +20,7 @@ from raydix.raster import QUARTIC_AT, ROOTS_AT, VECTOR_AT
 from raydix.rtl import top_parameters
 from raydix.scene import load_scene
 from raydix.shade import compose
+from materials import ONE
 from test_csr import MAP, OK, Host
 
 CONFIG = Config(2, 6, 32, 2, 1, "certified", surfaces=3, layers=2, max_width=24, beat=2)
@@ -51,27 +53,31 @@ class Display:
             line = await with_timeout(cocotb.start_soon(self.sink.recv()), LINE, "ns")
             assert len(line.tdata) == 3 * width, f"line {row}: {len(line.tdata)} bytes"
             marks = [line.tuser] * 3 * width if isinstance(line.tuser, int) else line.tuser  # of each byte
-            beat = 3 * CONFIG.beat
+            beat = min(3 * CONFIG.beat, 3 * width)
             assert list(marks) == [int(row == 0)] * beat + [0] * (3 * width - beat), f"line {row}: {marks}"
             rows.append(np.array(line.tdata, np.uint8).reshape(width, 3)[:, ::-1])  # blue comes first
         return np.stack(rows)
 
 
 @functools.cache
-def golden(name, size=SIZE):
-    """Scene, words and picture of a scene by the golden model."""
+def golden(name, size=SIZE, level=None):
+    """Scene, words and picture of a scene by the golden model; ``level``: of ambient light and background, u1p16."""
     scene = load_scene(ROOT / "scenes" / f"{name}.toml", *size)
+    if level is not None:
+        light = scene.light.model_copy(update={"ambient": level / ONE})
+        background = scene.background.model_copy(update={"color": (level / ONE,) * 3})
+        scene = dataclasses.replace(scene, light=light, background=background)
     compiled = compile_scene(scene, CONFIG)
     return scene, compiled, compose(scene, trace_golden(compiled, CONFIG), CONFIG, CONFIG.layers).rgb
 
 
-async def program(host, name, change=None, size=SIZE, constants=True):
+async def program(host, name, change=None, size=SIZE, constants=True, level=None):
     """Do to the registers what the driver does for a frame; ``change`` may alter an operation (address, value).
 
     constants   False: descriptors and materials are not written
     """
     windows = [range(w["address"], w["address"] + w["size"]) for w in MAP.WINDOWS.values()]
-    scene, compiled, _ = golden(name, size)
+    scene, compiled, _ = golden(name, size, level)
     driver = processor.Host()
     driver.frame(scene, compiled, CONFIG)
     for kind, address, value, _ in driver.operations:
@@ -284,6 +290,16 @@ async def empty_frame_is_background(dut):
     await program(host, "sphere", lambda address, value: (address, 0 if address == count else value))
     picture = await display.picture(*SIZE)
     assert (picture == golden("sphere")[2][0, 0]).all()
+
+
+@cocotb.test
+async def registers_from_end_to_end(dut):
+    """Light and background from 0 to 1, each kind of skip alone, one step to all: golden pictures; one of 4,096 lines."""
+    host, display = await begin(dut, 0.0)
+    skip = MAP.REGISTERS["SKIP"]["address"]
+    for number, (level, size) in enumerate(((ONE, (1, 1)), (ONE - 1, (1, 4096)), (0, (2, 1)), (1, (3, 2)), (ONE, (1, 1)))):
+        await program(host, "sphere", lambda a, v, bit=1 << number: (a, bit if a == skip else v), size, level=level)
+        assert (await display.picture(*size) == golden("sphere", size, level)[2]).all(), (level, size)
 
 
 def test_top():

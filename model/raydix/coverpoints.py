@@ -12,7 +12,7 @@ import hashlib
 import os
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,6 +22,7 @@ COVER = ROOT / "tb" / "cover"
 MANIFEST = "RAYDIX_COVERAGE"  # environment: scripts/coverage.py sets it to a file that names of results are appended to
 RESULTS = ROOT / "build" / "coverage"
 WAIVERS = ROOT / "tb" / "coverage.toml"
+NEEDED = {"module", "kind", "constant", "points", "reason"}  # of a waiver
 KINDS = {"line": "block", "branch": "block", "toggle": "toggle", "user": "bin"}
 WIDEST = 2048  # bits of a signal in all; wider ones are memories and delay lines
 
@@ -148,10 +149,14 @@ def merge(files: Iterable[Path]) -> dict[Point, int]:
 
 
 class Waiver(NamedTuple):
-    """Points of one kind and module (*: every one) that need not be covered: patterns of their labels, and why."""
+    """Points of one kind and module (*: every one) that need not be covered: patterns of their labels, and why.
+
+    constant  True: no legal stimulus reaches them; False: this test does not, and another one does
+    """
 
     module: str
     kind: str
+    constant: bool
     points: tuple[re.Pattern, ...]
     reason: str
 
@@ -173,8 +178,9 @@ def waivers(file: Path) -> list[Waiver]:
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"{file}: {error}") from error
     for number, table in enumerate(tables, 1):
-        if set(table) != {"module", "kind", "points", "reason"} or table["kind"] not in KINDS.values():
-            names = "module, kind (block, toggle or bin), points, reason"
+        kind, constant = table.get("kind"), table.get("constant")
+        if set(table) != NEEDED or kind not in KINDS.values() or not isinstance(constant, bool):
+            names = "module, kind (block, toggle or bin), constant (true or false), points, reason"
             raise ValueError(f"{file}: waiver {number}: found {', '.join(table)}; needed: {names}")
         if not table["reason"].strip():
             raise ValueError(f"{file}: waiver {number}: a reason is needed")
@@ -182,14 +188,14 @@ def waivers(file: Path) -> list[Waiver]:
             patterns = tuple(map(re.compile, table["points"]))
         except re.error as error:
             raise ValueError(f"{file}: waiver {number}: the pattern {error.pattern!r}: {error}") from error
-        found.append(Waiver(table["module"], table["kind"], patterns, table["reason"]))
+        found.append(Waiver(table["module"], kind, constant, patterns, table["reason"]))
     return found
 
 
-def apply(points: dict[Point, int], rules: list[Waiver]) -> tuple[set[Point], list[str]]:
-    """Points that are not hit and waived; patterns that waive nothing, each as a sentence."""
+def apply(points: dict[Point, int], rules: list[Waiver]) -> tuple[dict[Point, bool], list[str]]:
+    """Points that are not hit and waived, with whether they are constant; patterns that waive nothing, as sentences."""
     text: dict[str, list[str]] = {}
-    waived: set[Point] = set()
+    waived: dict[Point, bool] = {}
     idle = []
     modules = {point.module for point in points}
     missed = [point for point, count in points.items() if not count]
@@ -199,13 +205,13 @@ def apply(points: dict[Point, int], rules: list[Waiver]) -> tuple[set[Point], li
         mine = [p for p in missed if p.kind == rule.kind and rule.module in (p.module, "*")]
         for pattern in rule.points:
             matching = [p for p in mine if pattern.fullmatch(label(p, text))]
-            waived.update(matching)
+            waived.update((point, rule.constant or waived.get(point, False)) for point in matching)
             if not matching and rule.module != "*":
                 idle.append(f"{rule.module}: the waiver of {rule.kind} {pattern.pattern!r} waives nothing")
     return waived, idle
 
 
-def gaps(points: dict[Point, int], waived: set[Point]) -> list[str]:
+def gaps(points: dict[Point, int], waived: Container[Point]) -> list[str]:
     """A line for each block, signal or bin that is neither hit nor waived: file:line, and which bits."""
     text: dict[str, list[str]] = {}
     found: dict[tuple, list[str]] = {}
@@ -229,14 +235,15 @@ def _shorter(bits: list[str], most: int = 6) -> str:
 
 
 class Row(NamedTuple):
-    """Counts of one module and kind."""
+    """Counts of one module and kind; those that are waived as constant, and as left to other tests."""
 
     hit: int
     total: int
-    waived: int
+    constant: int
+    left: int
 
 
-def rows(points: dict[Point, int], waived: set[Point]) -> dict[str, dict[str, Row]]:
+def rows(points: dict[Point, int], waived: dict[Point, bool]) -> dict[str, dict[str, Row]]:
     """Counts by module and kind."""
     table: dict[str, dict[str, Row]] = {}
     for module in sorted({point.module for point in points}):
@@ -244,5 +251,6 @@ def rows(points: dict[Point, int], waived: set[Point]) -> dict[str, dict[str, Ro
         table[module] = {}
         for kind in ("block", "toggle", "bin"):
             those = [p for p in mine if p.kind == kind]
-            table[module][kind] = Row(sum(mine[p] > 0 for p in those), len(those), len(waived.intersection(those)))
+            why = [waived[p] for p in those if p in waived]
+            table[module][kind] = Row(sum(mine[p] > 0 for p in those), len(those), sum(why), len(why) - sum(why))
     return table
