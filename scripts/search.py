@@ -15,6 +15,7 @@ from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import compile_chords, spiral_config, trace_spiral
 from raydix.compile_spiral import Oversize
 from raydix.config import Config
+from raydix.formats import STEPS_MAX
 from raydix.oracle_spiral import spiral_chord_roots
 from raydix.segments import Segments, trace_segments, whole
 from raydix.stress_polynomials import fitted
@@ -159,6 +160,9 @@ def evolve_spiral(score, names, generations: int, count: int, seed: int, tick):
         s = alone(score, surface, h, e)
         begin = max(begin, float(s.max()))
         for _ in range(generations):
+            if s.max() >= STEPS_MAX:  # no ray takes more
+                tick()
+                continue
             best = np.argsort(-s, kind="stable")[: max(1, count // 10)]
             parents = dice.choice(best, count - len(best))
             scale = size * 2.0 ** -dice.uniform(4, 28, (2, len(parents), 1))
