@@ -105,13 +105,17 @@ def test_yosys_slang(top, design):
     assert "Build succeeded: 0 errors, 0 warnings" in text
 
 
-def test_verilator_bins():
-    """Verilator accepts the bins, bound to the core; ports that only some parameters need are allowed."""
-    values = [f"-G{key}={value}" for key, value in parameters(Config(units=1, vecsum="general")).items()]
+@pytest.mark.parametrize("top", ["rdx_core", "rdx_top"])
+def test_verilator_bins(top):
+    """Verilator accepts the bins, bound to core and processor; ports that only some parameters need are allowed."""
+    config = Config(units=1, vecsum="general")
+    values = parameters(config) if top == "rdx_core" else top_parameters(config)
     options = ["--lint-only", "-Wall", "-Wno-UNUSEDSIGNAL", "-Wno-UNUSEDPARAM", "--assert", "--coverage-user"]
+    options += [f"-G{key}={value}" for key, value in values.items()]
     places = [f"-I{RTL}", f"-I{ROOT / 'tb' / 'cover'}"]
     bins = sorted((ROOT / "tb" / "cover").glob("*.sv"))
-    text = check("verilator", *options, *places, *values, "--top-module", "rdx_core", *sources(), *bins)
+    design = [LINT_CONTROL, GENERATED_CONTROL, *(sources() if top == "rdx_core" else top_sources())]
+    text = check("verilator", *options, *places, "--top-module", top, *design, *bins)
     assert "%Warning" not in text
 
 

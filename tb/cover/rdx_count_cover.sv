@@ -18,9 +18,9 @@ module rdx_count_cover (
   `RDX_COVER(no_event, !clear_i && events_i == '0)
   `RDX_COVER(hit_that_is_not_last, hit_valid_i && hit_i.hit && !hit_i.last)
   `RDX_COVER(last_without_hit, last && !hit_i.hit)
-  `RDX_COVER(stops_early, last && hit_i.steps < 16'(k_stop_i))
-  `RDX_COVER(stops_at_k, last && hit_i.steps == 16'(k_stop_i))
-  `RDX_COVER(takes_more, last && hit_i.steps > 16'(k_stop_i) && !(&hit_i.steps))
+  `RDX_COVER(stops_early, last && hit_i.steps < rdx_pkg::steps_t'(k_stop_i))
+  `RDX_COVER(stops_at_k, last && hit_i.steps == rdx_pkg::steps_t'(k_stop_i))
+  `RDX_COVER(takes_more, last && hit_i.steps > rdx_pkg::steps_t'(k_stop_i) && !(&hit_i.steps))
   `RDX_COVER(given_up, last && &hit_i.steps)
   `RDX_COVER(most_steps_but_not_last, hit_valid_i && !hit_i.last && &hit_i.steps)
 endmodule
