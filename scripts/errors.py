@@ -93,6 +93,21 @@ def product_rows(count: int, seed: int):
     yield ["product, where nearest to its bound", "ulp of f", cases, worst[1], worst[0]], worst[0] > worst[1]
 
 
+def resolution_rows(count: int, seed: int):
+    """Height of f between two roots in one cell of the last level, which the ends of the cell do not show."""
+    dice, digits = np.random.default_rng(seed), 4
+    for degree in (4, 2):
+        bound, worst = resolution(digits, degree, 36), 0.0
+        near = 2.0 ** -dice.uniform(1, 20, (count, 2))  # of the roots from the ends of the cell
+        pair = (dice.integers(0, 1 << digits, (count, 1)) + np.stack([near[:, 0], 1 - near[:, 1]], axis=1)) / (1 << digits)
+        rest = dice.normal(size=(count, degree - 1))
+        b = stress_polynomials.times(stress_polynomials.through(pair), rest)
+        b *= 2.0**35 / np.abs(b).max(axis=1, keepdims=True)
+        for part in np.linspace(0, 1, 65):
+            worst = max(worst, float(np.abs(bernstein(b, pair[:, 0] + part * (pair[:, 1] - pair[:, 0]))).max()))
+        yield [f"pair in a cell, D = {degree}, n = {digits}", "ulp of f", count, bound, worst], worst > bound
+
+
 def coordinate_rows(count: int, seed: int):
     """Random segments and cells."""
     config, dice = Config(units=1), np.random.default_rng(seed)
@@ -122,20 +137,20 @@ def indicator_rows(count: int, seed: int):
 def root_rows(count: int, seed: int):
     """First roots of the stress categories: what was passed over, the cell that was found, the error of t."""
     config = Config(units=1)
-    above, fine = halving(3, 8, 4, config.width), resolution(config.digits, 4, config.width)
+    above = halving(3, 8, 4, config.width)
     deep, low, high, error = [], [], [], []
     for make in stress.categories(4).values():
         for segments in make(np.random.default_rng(seed), count, config):
             t = trace_segments(segments, config)[0][:, 0]
             judged = stress.judge(segments, t, config)
             dip, hump = passed(segments, t, config.digits, np.flatnonzero(judged.missed | judged.wrong)).T
-            deep += np.where(hump <= fine, 0.0, dip).tolist()
+            deep += np.where(hump == 0, 0.0, dip).tolist()
             ends = np.stack([bernstein(segments.b, (t + k) * 2.0**-config.digits) for k in (0, 1)])[:, t >= 0]
             low += ends.min(axis=0).tolist()
             high += (-ends.max(axis=0)).tolist()
             error += judged.error[judged.well & ~judged.band & ~np.isnan(judged.error)].tolist()
     for name, unit, values, bound in (
-        ("passed over: depth of f below 0", "ulp of f", deep, above + fine),
+        ("passed over: depth of f below 0", "ulp of f", deep, above),
         ("cell found: its positive end below 0", "ulp of f", high, above),
         ("cell found: its other end above 0", "ulp of f", low, 0.0),
         ("t of a well-conditioned root", "ulp of t", error, 2.0),
@@ -163,6 +178,7 @@ def main() -> int:
         (halving_rows, args.rays),
         (word_rows, 4 * args.rays),
         (product_rows, 4 * args.rays),
+        (resolution_rows, 20 * args.rays),
         (coordinate_rows, 20 * args.rays),
         (root_rows, 20 * args.rays),
         (indicator_rows, 10 * args.rays),

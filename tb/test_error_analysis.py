@@ -88,6 +88,13 @@ def test_roots():
     assert 0.5 < error[4] <= 2
 
 
+def test_resolution():
+    """Between two roots in one cell f is not higher than the bound, and nearly as high."""
+    quartic, quadratic = checked(errors.resolution_rows(4000, 1))
+    assert quartic[4] > quartic[3] / 4
+    assert quadratic[4] > 0.85 * quadratic[3]
+
+
 @pytest.mark.parametrize("change", ["lost", "moved"])
 def test_roots_would_be_refuted(monkeypatch, change):
     """Hits that are taken away, or moved by three cells, are more than rounding does."""

@@ -37,7 +37,7 @@ def product_error(shift: int, largest: float, width: int) -> float:
 
 def resolution(digits: int, degree: int, width: int) -> float:
     """How high f can rise between two roots in one cell of the last level; docs/error-analysis.md, "Resolution"."""
-    return comb(degree, 2) / 2 * 2.0 ** (width + 1 - 2 * digits)
+    return comb(degree, 2) / 4 * 2.0 ** (width + 1 - 2 * digits)
 
 
 def coordinates(digits: int) -> float:

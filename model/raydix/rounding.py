@@ -3,17 +3,19 @@
 
 Two statements hold for every ray, whatever its f. They are checked on the exact f, near the place that was found only:
 
-passed over  on all that lies before the cell found (on everything, if none was) f is above -A, or it is not above 0;
+passed over  at the ends of all cells before the one found (of all cells, if none was) f is above -A, or it is not above 0;
 found        one end of the cell has f <= 0, the other one f > -A.
 
-A is the bound of the halving. A pair of roots inside one cell of the last level adds its `resolution` on both sides.
-With a box the first statement is for the part of the ray that is certainly inside of it.
+A is the bound of the halving, cells are those of the last level. With a box the first statement is for the part of the
+ray that is certainly inside of it.
 """
+
+import math
 
 import numpy as np
 
-from .error_bounds import coordinates, halving, resolution
-from .exact import BITS, extrema, value
+from .error_bounds import coordinates, halving
+from .exact import extrema, value
 from .formats import COORD_FRAC
 from .segments import Segments
 
@@ -48,32 +50,38 @@ def inside(segments: Segments, digits: int) -> np.ndarray:
     return np.stack([low, high], axis=1)
 
 
-def reach(b: list[int], low: float, high: float) -> tuple[float, float]:
-    """How far f goes below 0 and above it on [low, high], ulp of f: exact but for the rounding to float64."""
-    degree = len(b) - 1
-    ends = [value(b, int(t * 2.0**BITS), BITS) / (1 << BITS * degree) for t in (low, high)]
-    values = ends + [v for place, v in extrema(b) if low < place < high]
+def reach(b: list[int], first: int, last: int, digits: int) -> tuple[float, float]:
+    """How far f goes below 0 and above it at multiples ``first`` to ``last`` of 2^-digits, ulp of f.
+
+    Exact but for the rounding to float64. Between extrema f is monotonous: the multiples next to them are enough.
+    """
+    places = {first, last}
+    for place, _ in extrema(b):
+        near = int(place * 2.0**digits)
+        places.update(p for p in range(near - 1, near + 3) if first < p < last)
+    values = [value(b, p, digits) / (1 << digits * (len(b) - 1)) for p in places]
     return max(0.0, -min(values)), max(0.0, max(values))
 
 
 def passed(segments: Segments, t: np.ndarray, digits: int, rows: np.ndarray) -> np.ndarray:
-    """(rows, 2): how far f goes below 0 and above it on what was passed over, ulp of f.
+    """(rows, 2): how far f goes below 0 and above it at the ends of the cells that were passed over, ulp of f.
 
     t      (N) int64, number of the cell that was found, -1 = none
     rows   those to be looked at
     """
     out, part = np.zeros((len(rows), 2)), inside(segments, digits)
     for k, i in enumerate(rows):
-        low, high = float(part[i, 0]), min(float(part[i, 1]), 1.0 if t[i] < 0 else t[i] * 2.0**-digits)
-        if low < high:
-            out[k] = reach(segments.b[i].tolist(), low, high)
+        first, last = math.ceil(part[i, 0] * 2.0**digits), math.floor(part[i, 1] * 2.0**digits)
+        last = last if t[i] < 0 else min(last, int(t[i]))
+        if first <= last:
+            out[k] = reach(segments.b[i].tolist(), first, last, digits)
     return out
 
 
 def explained(segments: Segments, t: np.ndarray, exact: np.ndarray, config) -> np.ndarray:
     """(N) bool: whether both statements hold for the cells ``t`` (N) int64, -1 = none; ``exact`` has f's changes."""
     digits, degree, width = config.digits, config.degree, config.width
-    above, fine = halving(config.n1, config.steps, degree, width), resolution(digits, degree, width)
+    above = halving(config.n1, config.steps, degree, width)
     # a change that float64 puts on the wrong side of the cell's end is passed over by less than A where f is so flat
     slack = 0.0 if degree * 2.0 ** (width - 36) < above / 2 else 2.0**-36
     stop = np.where(t < 0, 1.0, t * 2.0**-digits) + slack
@@ -81,7 +89,7 @@ def explained(segments: Segments, t: np.ndarray, exact: np.ndarray, config) -> n
         rows = np.flatnonzero((exact < stop[:, None]).any(axis=1))
     dip, hump = passed(segments, t, digits, rows).T
     good = np.ones(len(t), bool)
-    good[rows] = (dip < above + fine) | (hump <= fine)
+    good[rows] = (dip < above) | (hump == 0)
     return good & (_cell(segments.b, t, digits, above) | (t < 0))
 
 

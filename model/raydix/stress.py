@@ -50,8 +50,8 @@ class Judged(NamedTuple):
 
     @property
     def failed(self) -> np.ndarray:
-        """missed, false or wrong, outside of the band; or off."""
-        return (self.missed | self.false | self.wrong) & ~self.band | self.off
+        """missed, false or wrong, outside of the band; or off; or given up, though there is a root outside of it."""
+        return (self.missed | self.false | self.wrong | self.given_up & self.hit) & ~self.band | self.off
 
 
 def categories(degree: int, each: bool = False) -> dict:
@@ -165,12 +165,13 @@ def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, 
     wrong = ~allowed[row, nearest] & (error > 64) | well & (error > 2)
     missed, false = hit & (t < 0) & ~given_up, ~allowed.any(axis=1) & (t >= 0)
     bad = missed | false | wrong
-    passed = spiral_passed(surface, compiled, t, every, exact, np.flatnonzero(bad | (first < t * ulp)), config.digits)
+    rows = np.flatnonzero(bad | given_up | (first < t * ulp))
+    passed = spiral_passed(surface, compiled, t, every, exact, rows, config.digits)
     cell = np.stack([spiral_value(surface, at(compiled, (t + k) * ulp)) for k in (0, 1)])
     there = (cell.min(axis=0) <= compiled.epsilon) & (cell.max(axis=0) > -compiled.epsilon) | (t < 0)
-    off = ~bad & ~(passed & there)
+    off = ~bad & ~given_up & ~(passed & there)
     # where the clearance is epsilon at least nothing can be explained
-    band = (clearance < compiled.epsilon) & (bad & passed & there | given_up)
+    band = (clearance < compiled.epsilon) & (bad | given_up) & passed & there
     return Judged(hit, missed, false, wrong, band, off, np.where(wrong, np.nan, error), well, given_up)
 
 
