@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
@@ -66,6 +67,20 @@ def texts(name, runs, row):
     return [name, str(runs), *counts, f"{bins.hit}/{bins.total}", str(bins.constant + bins.left)]
 
 
+def contradicted(points, rules):
+    """Waivers of constants that match a bit which rose and fell, each as a sentence."""
+    seen = Counter((p.module, coverpoints.label(p, {})) for p, count in points.items() if p.kind == "toggle" and count)
+    moved = [bit for bit, directions in seen.items() if directions == 2]
+    found = []
+    for rule in rules:
+        if rule.constant and rule.kind == "toggle":
+            for pattern in rule.points:
+                bits = sorted(name for module, name in moved if module == rule.module and pattern.fullmatch(name))
+                if bits:
+                    found.append(f"{rule.module}: not constant: {', '.join(bits[:6])}, of the waiver {pattern.pattern!r}")
+    return found
+
+
 def numbers(cell):
     """The counts in a cell, as in 1,024/2,048."""
     return [int(part.replace(",", "")) for part in cell.split("/")]
@@ -117,7 +132,7 @@ def main():
         kept = {name: line for name, line in read_table(PAGE, "coverage").items() if name in modules([])}
         kept = sorted((kept | {line[0]: line for line in lines if line[0] != "all"}).values())
         write_table(PAGE, "coverage", HEADER, [*kept, total(kept)])
-    left = coverpoints.gaps(points, waived) + idle
+    left = coverpoints.gaps(points, waived) + idle + contradicted(points, rules)
     for line in left:
         print(line)
     return 1 if left else 0

@@ -322,7 +322,7 @@ PROOFS = {
     "fifo": fifo(4),
     "fifo-two": fifo(2),
     "fifo-block": fifo(BLOCK_FROM, block=True),
-    "stream-fifo": stream("rdx_fifo", {"W": 202, "Depth": 16}, QUEUE),
+    "stream-fifo": stream("rdx_fifo", {"W": 213, "Depth": 16}, QUEUE),
     "stream-fifo-block": stream("rdx_fifo", {"W": 60, "Depth": 32}, QUEUE),
     "stream-sift": stream("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, QUEUE),
     "paths-sift": paths("rdx_sift", {"W": 16, "D": 2, "Levels": 1, "Queue": 16}, THROUGH_SIFT),
