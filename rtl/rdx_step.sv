@@ -3,7 +3,7 @@
 //
 // Formats    control_*, segment_*: the item, RDX_CONTROL_T and RDX_SEGMENT_T of rdx_types.svh; ends s2p30 and s1p31,
 //            control points sWp0, digits u0p<N1*K>. A Run item comes back as Run (digits left), Hit (the ends have met in the hit
-//            point), Again (nothing found here, a cell is pending; depth_start stays) or Done; others pass, so do a Hit's ends.
+//            point), Again (no root, a cell pending; depth_start of this one or its middle) or Done; others pass, so do a Hit's ends.
 // Rounding   half up in each average; normalising is exact.    Overflow   cannot happen (rdx_halve, rdx_scale).
 // Timing     latency rdx_pkg::step_latency clocks, one item a clock; no stall.
 //            D = 1: one item every ceil((J-1)/Lanes) clocks, where phase_i = 0

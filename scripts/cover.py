@@ -68,7 +68,7 @@ def texts(name, runs, row):
 
 
 def contradicted(points, rules):
-    """Waivers of constants that match a bit which rose and fell, each as a sentence."""
+    """Waivers of constants, of one module, that match a bit which rose and fell, each as a sentence."""
     seen = Counter((p.module, coverpoints.label(p, {})) for p, count in points.items() if p.kind == "toggle" and count)
     moved = [bit for bit, directions in seen.items() if directions == 2]
     found = []

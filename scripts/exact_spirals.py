@@ -110,17 +110,16 @@ def one(surface, kind: str, count: int, seed: int) -> list[Part]:
         config = spiral_config(surface, n1, steps, rule)
         compiled = compile_chords(surface, h, e, config)
         t, taken = trace_spiral(compiled, config)
-        kept = np.flatnonzero(taken < STEPS_MAX)
-        found = t[kept, 0]
-        local = (ends_of_words(words, compiled.factors, compiled.middle) for words in compiled.coordinates[kept])
+        found = t[:, 0]
+        local = (ends_of_words(words, compiled.factors, compiled.middle) for words in compiled.coordinates)
         starts, stops = zip(*local, strict=True)
         judged = judge(surface, starts, stops, found, config.digits, MARGIN, compiled.epsilon)
-        at, slope = ~np.isnan(judged.error), np.zeros(len(kept))
-        places = kept[at], (found[at] + 0.5) * 2.0**-config.digits
+        at, slope = ~np.isnan(judged.error), np.zeros(len(found))
+        places = np.flatnonzero(at), (found[at] + 0.5) * 2.0**-config.digits
         slope[at] = slopes(surface, compiled.h[places[0]], compiled.e[places[0]], places[1])
         ratios = [float(v.clearance.upper()) / compiled.epsilon for _, v in judged.uncertified if v.kind != "undecided"]
         plain = judged._replace(uncertified=[])  # balls do not travel between processes
-        results.append(Part(plain, slope, count - len(kept), max((v for v in ratios if v < 1), default=0.0)))
+        results.append(Part(plain, slope, int(((found < 0) & (taken == STEPS_MAX)).sum()), max((v for v in ratios if v < 1), default=0.0)))
     return results
 
 

@@ -166,6 +166,16 @@ def test_waivers(small, tmp_path):
     assert coverpoints.rows(points, waived)["small"]["toggle"] == Row(15, 20, 1, 2)
 
 
+def test_constant_that_moves(small, tmp_path):
+    """A bit that rose and fell is no constant; one that did neither may be, and one that is left to others may do both."""
+    _, results = small
+    points = {p: n for p, n in coverpoints.merge(results).items() if p.module == "small"}
+    rules = waiver(tmp_path, WAIVERS.replace("count_i\\[2\\]", "count_i\\[[02]\\]"))
+    assert not script().contradicted(points, rules)
+    (found,) = script().contradicted(points, [rule._replace(constant=True) for rule in rules])
+    assert found.startswith("small: not constant: count_i[0], of the waiver")
+
+
 @pytest.mark.parametrize(
     ("found", "complaint"),
     [
