@@ -77,7 +77,9 @@ def contradicted(points, rules):
             for pattern in rule.points:
                 bits = sorted(name for module, name in moved if module == rule.module and pattern.fullmatch(name))
                 if bits:
-                    found.append(f"{rule.module}: not constant: {', '.join(bits[:6])}, of the waiver {pattern.pattern!r}")
+                    found.append(
+                        f"{rule.module}: not constant: {', '.join(bits[:6])}, of the waiver {pattern.pattern!r}"
+                    )
     return found
 
 

@@ -99,7 +99,9 @@ def resolution_rows(count: int, seed: int):
     for degree in (4, 2):
         bound, worst = resolution(digits, degree, 36), 0.0
         near = 2.0 ** -dice.uniform(1, 20, (count, 2))  # of the roots from the ends of the cell
-        pair = (dice.integers(0, 1 << digits, (count, 1)) + np.stack([near[:, 0], 1 - near[:, 1]], axis=1)) / (1 << digits)
+        pair = (dice.integers(0, 1 << digits, (count, 1)) + np.stack([near[:, 0], 1 - near[:, 1]], axis=1)) / (
+            1 << digits
+        )
         rest = dice.normal(size=(count, degree - 1))
         b = stress_polynomials.times(stress_polynomials.through(pair), rest)
         b *= 2.0**35 / np.abs(b).max(axis=1, keepdims=True)

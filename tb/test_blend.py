@@ -127,7 +127,7 @@ def test_error():
 
 
 def test_part_and_rest():
-    """Part and what is let through are T at most, for every opacity: so no sum needs a cut; often they are T exactly."""
+    """Part and what is let through are T at most, for every opacity, so no sum needs a cut; and T - 1 at least."""
     opacity, product = np.arange(ONE + 1), getattr(times, "py_func", times)
     for through in (0, 1, 2, 3, ONE // 2, ONE - 1, ONE, *range(5, ONE, 1031)):
         both = product(through, opacity) + (through * (ONE - opacity) >> UNIT_FRAC)

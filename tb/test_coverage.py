@@ -157,7 +157,7 @@ reason = "of another run"
 
 
 def test_waivers(small, tmp_path):
-    """A waived point is no gap and no hit, and constant or left; a pattern that waives nothing is reported; other modules' are left alone."""
+    """A waived point is no gap and no hit, constant or left; a pattern that waives nothing is told, if of this run."""
     _, results = small
     points = {p: n for p, n in coverpoints.merge(results).items() if p.module == "small"}
     waived, idle = coverpoints.apply(points, waiver(tmp_path, WAIVERS))
@@ -167,7 +167,7 @@ def test_waivers(small, tmp_path):
 
 
 def test_constant_that_moves(small, tmp_path):
-    """A bit that rose and fell is no constant; one that did neither may be, and one that is left to others may do both."""
+    """A bit that rose and fell is no constant; one that did neither may be, and what is left to others may do both."""
     _, results = small
     points = {p: n for p, n in coverpoints.merge(results).items() if p.module == "small"}
     rules = waiver(tmp_path, WAIVERS.replace("count_i\\[2\\]", "count_i\\[[02]\\]"))

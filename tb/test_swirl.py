@@ -325,7 +325,7 @@ def test_error(seed):
     nothing = np.mean(np.concatenate(any_direction))
     plain, seen, rate = np.concatenate(plain), np.concatenate(seen), np.mean(np.concatenate(doubtful))
     rms, median, most = np.sqrt(np.mean(seen**2)), np.median(seen), np.quantile(seen, 0.999)
-    print(f"{plain.size} points, {max(worst):.2f} of the bound, {rate:.2g} chosen otherwise, at {nothing:.2g} any direction would do")
+    print(f"{plain.size} points, {max(worst):.2f} of the bound, {rate:.2g} chosen otherwise, {nothing:.2g} unbounded")
     print(f"{seen.size} of spirals neither thin nor near the axis: rms {rms:.2g}, median {median:.2g}, "
           f"99.9 % {most:.2g}, max {seen.max():.2g}")  # fmt: skip
     assert plain.size > 20_000 and len(worst) >= 30 and max(worst) > 1 / 4 and nothing < 1 / 8

@@ -3,7 +3,7 @@
 
 Two statements hold for every ray, whatever its f. They are checked on the exact f, near the place that was found only:
 
-passed over  at the ends of all cells before the one found (of all cells, if none was) f is above -A, or it is not above 0;
+passed over  at the ends of all cells before that found (of all, if none was) f is above -A, or at all not above 0;
 found        one end of the cell has f <= 0, the other one f > -A.
 
 A is the bound of the halving, cells are those of the last level. With a box the first statement is for the part of the
