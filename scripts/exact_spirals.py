@@ -119,14 +119,9 @@ def one(surface, kind: str, count: int, seed: int) -> list[Part]:
         slope[at] = slopes(surface, compiled.h[places[0]], compiled.e[places[0]], places[1])
         ratios = [float(v.clearance.upper()) / compiled.epsilon for _, v in judged.uncertified if v.kind != "undecided"]
         plain = judged._replace(uncertified=[])  # balls do not travel between processes
-        results.append(
-            Part(
-                plain,
-                slope,
-                int(((found < 0) & (taken == STEPS_MAX)).sum()),
-                max((v for v in ratios if v < 1), default=0.0),
-            )
-        )
+        given_up = int(((found < 0) & (taken == STEPS_MAX)).sum())
+        largest = max((v for v in ratios if v < 1), default=0.0)
+        results.append(Part(plain, slope, given_up, largest))
     return results
 
 

@@ -3,6 +3,8 @@
 
 from dataclasses import dataclass, field
 
+from raydix.formats import LIMIT_WIDTH, STEPS_WIDTH
+
 
 @dataclass(frozen=True)
 class Proof:
@@ -137,8 +139,8 @@ def ring(parameters, always, **rest):
             ),
         )
     values = parameters | {"Always": always}
-    short = ("rdx_pkg", "int unsigned StepsWidth = 20;", "int unsigned StepsWidth = 2;")
-    narrow = ("rdx_pkg", "int unsigned LimitWidth = 18;", "int unsigned LimitWidth = 2;")
+    short = ("rdx_pkg", f"int unsigned StepsWidth = {STEPS_WIDTH};", "int unsigned StepsWidth = 2;")
+    narrow = ("rdx_pkg", f"int unsigned LimitWidth = {LIMIT_WIDTH};", "int unsigned LimitWidth = 2;")
     return Proof(
         "formal_ring", "rdx_ring", says, values, "pdr", broken, ("rdx_step",), (short, narrow),
         stages=3, depth=60 if always else 70, **rest,

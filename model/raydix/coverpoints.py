@@ -19,7 +19,7 @@ from typing import NamedTuple
 from .files import ROOT
 
 COVER = ROOT / "tb" / "cover"
-MANIFEST = "RAYDIX_COVERAGE"  # environment: scripts/coverage.py sets it to a file that names of results are appended to
+MANIFEST = "RAYDIX_COVERAGE"  # environment: scripts/cover.py sets it to a file that names of results are appended to
 RESULTS = ROOT / "build" / "coverage"
 WAIVERS = ROOT / "tb" / "coverage.toml"
 NEEDED = {"module", "kind", "constant", "points", "reason"}  # of a waiver
@@ -105,7 +105,7 @@ def keep(counts: Path, result: Path) -> None:
 
 
 def note(result: Path) -> None:
-    """Tell ``scripts/coverage.py`` of a result: a line in the file that the environment names."""
+    """Tell ``scripts/cover.py`` of a result: a line in the file that the environment names."""
     with open(os.environ[MANIFEST], "a") as file:
         file.write(f"{result.name}\n")
 

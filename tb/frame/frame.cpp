@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
         tick();
         if (taken) sent++, offered = false, quiet = 0;
         cycles++;
-        if (++quiet > Patience) return fail("nothing moved for 2^28 cycles");
+        if (++quiet > Patience) return fail(Silence);
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     // nothing more may come

@@ -15,3 +15,4 @@ static_assert(sizeof(Record) == 32);
 
 // Clocks without an event after which a run ends: more than the longest ray takes, 2^20 steps of less than 256 clocks
 constexpr std::uint64_t Patience = 1ull << 28;
+constexpr char Silence[] = "nothing moved for 2^28 cycles";

@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
         if (r) state = Idle;
         cycles++;
         if (pixels_seen > wanted) return fail("more pixels than the frames have");
-        if (++quiet > Patience) return fail("nothing moved for 2^28 cycles");
+        if (++quiet > Patience) return fail(Silence);
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     top.final();
