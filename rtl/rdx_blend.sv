@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers of a pixel from front to back, and the background behind them.
 //
-// A layer takes part = T a of the light and lets T (1 - a) through; T is 1 before the first. Where no layer comes one of opacity 0
-// is taken, which changes nothing, so that no register needs an enable.
+// A layer takes part = T a of the light and lets T (1 - a) through; T is 1 before the first. Where no layer comes, or one of
+// opacity 0, the share is 0 and all is let through, whatever stands at the other ports; so no register needs an enable.
 //
 // Formats    all numbers u1p16, at most 1. valid_i: a layer comes; first_i, last_i: of its pixel; Layers = 1: both are taken for 1.
 // Rounding   half up, each product; what is let through: down, because the loop from layer to layer is one clock.
@@ -43,11 +43,13 @@ module rdx_blend #(
   // ---- what is seen of a layer, and of what is behind it ----
   unit_t opacity_q, rest_q, seen_q, opacity_qq, through_q, part_q;
   logic [6:1] first_q;
+  logic [5:1] shown_q;
   unit_product_t part_product_q;
   always_ff @(posedge clk_i) begin
-    opacity_q <= valid_i ? opacity_i : '0;
+    opacity_q <= opacity_i;
     rest_q <= valid_i ? One - opacity_i : One;
     first_q <= {first_q[5:1], valid_i && first_i};
+    shown_q <= {shown_q[4:1], valid_i && opacity_i != '0};
     opacity_qq <= opacity_q;
     part_product_q <= unit_product_t'(seen_q) * unit_product_t'(opacity_qq);
     part_q <= rounded(part_product_q);
@@ -66,7 +68,7 @@ module rdx_blend #(
     end
   end
 
-  // ---- colour ----
+  // ---- colour; where nothing is seen of it, it may be unknown, and four states know no 0 * x = 0 ----
   unit_t through[1];
   unit_t color  [3];
   rdx_delay #(
@@ -91,7 +93,7 @@ module rdx_blend #(
     unit_t share_q, rest_qq, sum_q;
     always_ff @(posedge clk_i) begin
       term_q <= unit_product_t'(part_q) * unit_product_t'(color[channel]);
-      share_q <= rounded(term_q);
+      share_q <= shown_q[5] ? rounded(term_q) : '0;
       sum_q <= (Layers == 1 || first_q[6] ? '0 : sum_q) + share_q;
       behind_q <= unit_product_t'(through[0]) * unit_product_t'(background_i[channel]);
       rest_qq <= rounded(behind_q);

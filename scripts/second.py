@@ -27,7 +27,6 @@ from rich.console import Console
 from rich.table import Table
 
 from raydix.blocks import read_table, write_table
-from raydix.files import RTL
 
 ROOT = Path(__file__).resolve().parents[1]
 TB = ROOT / "tb"
@@ -37,7 +36,7 @@ HEADER = ("module", "parameter sets", "tests", "passed", "left out")
 # Parameter sets that take Icarus many minutes each: many lanes or cells, or all cells within one clock.
 SLOW = re.compile(
     r"test_cast\.py::test_cast(_without_spirals)?$|test_ring\.py.*(N1=4|Lanes=)"
-    r"|test_vector\.py.*N1=2|test_lanes\.py.*(7 on [1347]|15 on|general)"
+    r"|test_rings\.py.*(N1=2|Lanes=)|test_vector\.py.*N1=2|test_lanes\.py.*(7 on [1347]|15 on|general)"
     r"|test_sample\.py.*Lanes=7|test_step\.py.*(N1=4|Lanes=[37]|HalveStages=0)|test_split\.py.*N1=4"
 )
 sys.path.insert(0, str(TB))
@@ -97,8 +96,7 @@ def table(runs, left):
 
 def main(arguments=None):
     """The command line."""
-    tested = (path.stem.removeprefix("test_") for path in TB.glob("test_*.py"))
-    known = sorted(name for name in tested if (RTL / f"rdx_{name}.sv").exists())
+    known = second.tested()
     parser = argparse.ArgumentParser(description="Module tests under Icarus Verilog, with four-state values.")
     parser.add_argument("module", nargs="*", help="all if none is named")
     parser.add_argument("--jobs", type=int, default=2)

@@ -58,11 +58,16 @@ async def before(dut, background, random, idle):
     for clock in range(len(clocks) + LATENCY):
         item = clocks[clock] if clock < len(clocks) else None
         dut.valid_i.value = item is not None
-        first, last, opacity, shade = item or (False, False, unit(random), [ONE] * 3)
+        if item:
+            first, last, opacity, shade = item
+            dut.first_i.value, dut.last_i.value, dut.opacity_i.value = int(first), int(last), opacity
+            color.write(shade)
         if not item or most == 1:  # a single layer is both, whatever the ports say
-            first, last = random.getrandbits(1), random.getrandbits(1)
-        dut.first_i.value, dut.last_i.value, dut.opacity_i.value = int(first), int(last), opacity
-        color.write(shade)
+            bench.unknown(dut, random, "first_i", "last_i")
+        if not item or not opacity:
+            bench.unknown(dut, random, "color_i")
+        if not item:
+            bench.unknown(dut, random, "opacity_i")
         await ReadOnly()
         expected = done[clock - LATENCY] if clock >= LATENCY else None
         assert bool(dut.valid_o.value) == (expected is not None), f"clock {clock}"

@@ -13,6 +13,7 @@ from cocotb.triggers import Timer
 
 import bench
 import second
+from raydix.blocks import read_table
 from raydix.files import ROOT, RTL
 
 WIDTH = 173
@@ -103,3 +104,11 @@ def test_one_line_refuses(arguments, path, line):
     command = [sys.executable, str(ROOT / "scripts" / "second.py"), *arguments]
     run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
     assert run.returncode == 2 and run.stderr.startswith(line) and run.stderr.count("\n") == 1, run.stderr
+
+
+def test_every_module_has_a_row():
+    """The table of the second simulator has a row for each module with a test, all of its tests passed, and no other."""
+    rows = read_table(ROOT / "docs" / "verification.md", "second")
+    assert sorted(rows) == [f"rdx_{name}" for name in second.tested()]
+    for name, (_, sets, tests, passed, _) in rows.items():
+        assert int(sets) > 0 and int(tests) > 0 and tests == passed, name

@@ -115,6 +115,15 @@ module formal_ring #(
   // ---- what the mark shows ----
   `LEMMA(1, p_ours, !(give && hit.x[0]) || flying)  // no record without a ray, and none behind the last
   if (Always) begin : gen_time
+    // a step a turn and no turn without one: steps and place say how long ago the marked item was taken
+    localparam int unsigned Turn = Slots * Phases;
+    `LEMMA(1, p_enter, !(running && here[0]) || age_q == 7'(Turn * 32'(u_ring.enter_q.steps)))
+    for (genvar i = 0; i < Latency; i++) begin : gen_stage
+      wire control_t item = u_ring.gen_unit[0].u_step.control_q[i];
+      `LEMMA(1, p_stage, !(running && here[3+i]) || age_q == 7'(Turn * (32'(item.steps) - 1) + 1 + i))
+    end
+    `LEMMA(1, p_leave, !(running && here[1]) || age_q == 7'(Turn * 32'(u_ring.leave_q.steps) - 2))
+    `LEMMA(1, p_wrap, !(running && here[2]) || age_q == 7'(Turn * 32'(u_ring.wrap_q.steps) - 1))
     // each step a turn of the ring, a turn to the wrap, and the output's register
     `LEMMA(2, p_time, !flying || age_q <= 7'((MostSteps + 1) * Slots * Phases + 3))
     `REACH(r_time, flying && age_q >= 7'((MostSteps - 1) * Slots * Phases))
@@ -134,6 +143,7 @@ module formal_ring #(
          !(rst_ni && u_ring.filled && begins) || u_ring.enter_segment_q.ends.start[0][0] == u_ring.enter_q.box[0][0])
   `REACH(r_restart, rst_ni && u_ring.filled && begins && u_ring.enter_q.steps != '0 && u_ring.enter_q.box[0][0])
   `REACH(r_ended, rst_ni && u_ring.u_leave.ended_o && u_ring.back.box[0][0])
+  `REACH(r_ended_later, rst_ni && u_ring.u_leave.ended_o && u_ring.back.box[0][0] && u_ring.back.steps > 2'd1)
   `REACH(r_last, give && hit.x[0] && hit.last && hit.hit)
   `REACH(r_more, give && hit.x[0] && !hit.last)
 

@@ -2,7 +2,8 @@
 // Stands in for rdx_step where the ring is proved: same ports and latency, any result that keeps the contract of its header.
 //
 // A Run item comes back as Run with the next level, or Again where a cell is pending, Hit (after the last digit) or Done.
-// Others pass unchanged. Control points and ends become anything; here only the bit that formal_ring.sv marks.
+// Others pass unchanged. Control points and ends become anything; here the depth
+// at which the cell begins, which is compared with the ray's limit, and the bit that formal_ring.sv marks.
 `default_nettype none
 `include "formal.svh"
 `include "rdx_types.svh"
@@ -37,6 +38,7 @@ module rdx_step #(
 
   // anything: the driver leaves what nothing drives free
   logic root, dead, found, scrambled;
+  depth_t moved;
   control_t control_d, control_q[Latency];
   segment_t segment_d, segment_q[Latency];
   always_comb begin
@@ -46,6 +48,7 @@ module rdx_step #(
       control_d.steps = control_i.steps + 1'b1;
       control_d.pending = control_i.pending || found;
       segment_d.ends.start[0][0] = scrambled;
+      segment_d.ends.depth_start = moved;
       if (!dead && control_i.level != 5'(K - 1)) control_d.level = control_i.level + 1'b1;
       else if (!dead && root) control_d.status = Hit;
       else control_d.status = control_d.pending ? Again : Done;
