@@ -25,7 +25,7 @@ BUILD = ROOT / "build" / "second"
 MISSING = "iverilog is missing (Debian: apt-get install iverilog)"
 
 # -noopt and pmuxtree: what an X does is for the simulator to find out; a casez would take X for no match.
-# bmuxmap: a table is a tree, whose nets are split; write_verilog would make one net of each level, all of it anew at a change
+# bmuxmap: a table is a tree, whose nets are split; write_verilog would make one net of each level, anew at a change.
 PASSES = (
     "proc -noopt",
     "pmuxtree",
@@ -55,8 +55,8 @@ FORGET = """\
 """
 REGISTER = re.compile(r"^  reg (?:\[\d+:0\] )?(\S+) *(?:\[(\d+):0\])?;$", re.M)
 
-# Outputs that are never unknown while the reset is off. limit_valid_o is no control: a part of the answer to a look, and
-# unknown before the first one.
+# Outputs that are never unknown while the reset is off. limit_valid_o is no control: a part of the answer to a look,
+# and unknown before the first one.
 CONTROL = re.compile(r"(?:(?<!limit_)valid|ready|idle|enter|phase|filled)_o")
 WATCH = """\
   // X or Z at an output of control after a clock of reset

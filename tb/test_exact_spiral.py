@@ -2,7 +2,9 @@
 """The exact oracle for spirals against exact roots, closed forms and the float64 oracle; then it judges the model."""
 
 import random
+import sys
 from fractions import Fraction
+from pathlib import Path
 from types import SimpleNamespace
 
 import mpmath as mp
@@ -16,6 +18,9 @@ from raydix.exact_spiral import certify, ends_of_words, indicator, judge, ration
 from raydix.formats import FORM_INDEX, ZONES
 from raydix.oracle_spiral import spiral_chord_roots, spiral_value
 from test_oracle_spiral import GROWN, HELIX, RING, chords, spiral
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
+import exact_spirals  # noqa: E402  (scripts/ is not installed)
 
 TINY = 2.0**-60
 
@@ -399,3 +404,14 @@ def test_what_is_wrong_is_seen():
             lost[what] += result.missed + result.wrong
             assert result.false == result.undecided == 0
     assert all(lost.values()), lost
+
+
+@pytest.mark.parametrize("column, n1, failure", [
+    ("missed", "1, 24", True), ("false", "3, 8", True), ("wrong", "4, 6", True), ("left out", "3, 8", False),
+    ("of these missed", "3, 8", True), ("of these missed", "1, 24", False), ("given up", "3, 8", False),
+])  # fmt: skip
+def test_failures_of_the_table(column, n1, failure):
+    """Which rows of ``make exact-spirals`` end it with status 1; the paper's rule never does."""
+    for rule in ("certified", "paper"):
+        row = {name: "0" for name in exact_spirals.HEADER} | {"rule": rule, "n1, K": n1, column: "1"}
+        assert exact_spirals.bad([row[name] for name in exact_spirals.HEADER]) == (failure and rule == "certified")

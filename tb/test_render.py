@@ -47,8 +47,8 @@ async def frame_of(dut, random, words, stall):
             pixels.append(int(dut.m_axis_tdata_o.value))
         done = bool(dut.done_o.value)
         assert done == (len(pixels) == WIDTH * HEIGHT)
-        address = [bench.Port(dut, name).read()[0] for name in ("slot_o", "place_o")]
-        asked = None if None in address else (address[0] % len(words), address[1])  # before the frame it need not be known
+        slot, place = (bench.Port(dut, name).read()[0] for name in ("slot_o", "place_o"))
+        asked = None if slot is None or place is None else (slot % len(words), place)  # unknown before the frame
         await FallingEdge(dut.clk_i)
         dut.start_i.value = 0
         if done:

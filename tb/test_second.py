@@ -107,7 +107,7 @@ def test_one_line_refuses(arguments, path, line):
 
 
 def test_every_module_has_a_row():
-    """The table of the second simulator has a row for each module with a test, all of its tests passed, and no other."""
+    """The table of the second simulator has a row for each module with a test, and no other; all tests passed."""
     rows = read_table(ROOT / "docs" / "verification.md", "second")
     assert sorted(rows) == [f"rdx_{name}" for name in second.tested()]
     for name, (_, sets, tests, passed, _) in rows.items():
