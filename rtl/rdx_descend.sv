@@ -30,7 +30,7 @@ module rdx_descend #(
   typedef logic signed [CoordWidth+1:0] move_t;  // and a bit that carries into it
 
   function automatic coord_t moved(coord_t start, move_t move);
-    return coord_t'((move_t'({start[CoordWidth-1], start, 1'b1}) + move) >>> 1);
+    return coord_t'((move_t'({start, 1'b1}) + move) >> 1);  // the bits above are not asked for
   endfunction
 
   // ---- which moves are made: those of the digits, known from the beginning, and the one to the middle ----
@@ -74,11 +74,10 @@ module rdx_descend #(
       localparam int unsigned Halvings = s == Stages - 1 ? Here - 1 : Here;
       coord_t start_q;
       distance_t whole_q;
-      move_t moves[2], moves_q[2];
+      move_t moves[Here], moves_q[Here];
       logic odds  [Here+1];
       logic odd_q;
       always_comb begin
-        moves   = '{default: '0};
         odds[0] = odd[s];
         for (int unsigned i = 0; i < Here; i++) begin
           // ceil((d + c) / 2) = (d >>> 1) + (d[0] | c), floor((d + c) / 2) = (d >>> 1) + (d[0] & c)
@@ -101,7 +100,6 @@ module rdx_descend #(
         assign start[s+1] = moved(moved(start_q, moves_q[0]), moves_q[1]);
       end else begin : gen_one
         assign start[s+1] = moved(start_q, moves_q[0]);
-        wire unused = &{1'b0, moves[1], moves_q[1]};
       end
     end
 

@@ -23,7 +23,7 @@ from raydix.blocks import read_table, write_table  # noqa: E402
 EQUIVALENT = ROOT / "tb" / "mutants.toml"
 PAGE = ROOT / "docs" / "mutants.md"
 SLOW = ["ring", "step", "algebraic", "ends", "sample", "lanes", "vecsum", "vector", "core"]  # these come last
-WHOLE = ("select", "halve", "ring")  # all mutants of these, always: the heart of the descent
+WHOLE = ("select", "guess", "halve", "ring", "slots", "leave")  # all mutants of these, always: the heart of the descent
 
 KINDS = ("check", "assertion", "timeout")
 HEADER = [

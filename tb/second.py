@@ -19,6 +19,7 @@ import tempfile
 from importlib.metadata import version
 from pathlib import Path
 
+import netlist
 from raydix.files import ROOT, RTL, reached
 
 BUILD = ROOT / "build" / "second"
@@ -43,32 +44,6 @@ design = libyosys.Design()
 for command in json.loads(sys.argv[1]):
     libyosys.run_pass(command, design)
 """
-
-# For bench.start: each test begins as if the simulation did.
-FORGET = """\
-  integer place;
-  reg forget = 1'b0;
-  always @(posedge forget) begin
-    was_reset = 1'b0;
-{registers}
-  end
-"""
-REGISTER = re.compile(r"^  reg (?:\[\d+:0\] )?(\S+) *(?:\[(\d+):0\])?;$", re.M)
-
-# Outputs that are never unknown while the reset is off. limit_valid_o is no control: a part of the answer to a look,
-# and unknown before the first one.
-CONTROL = re.compile(r"(?:(?<!limit_)valid|ready|idle|enter|phase|filled)_o")
-WATCH = """\
-  // X or Z at an output of control after a clock of reset
-  always @(posedge clk_i) begin
-    was_reset <= was_reset || rst_ni === 1'b0;
-    if (was_reset && rst_ni === 1'b1 && ^{{{outputs}}} === 1'bx) begin
-      $display("unknown output of control: {formats}", {outputs});
-      $finish_and_return(1);
-    end
-  end
-"""
-
 
 # Icarus does some hundred clocks a second of the largest modules. Of their tests only these are run: name of the test
 # file, and names of cocotb tests.
@@ -143,46 +118,6 @@ def elaborate(toplevel, parameters, files):
     return ports, [(p.name, str(p.value)) for p in numbers]
 
 
-def forgotten(netlist):
-    """Statements that make every register and memory of the netlist X again."""
-    for name, last in REGISTER.findall(netlist):
-        place = f"netlist.{name} "
-        yield f"for (place = 0; place <= {last}; place = place + 1) {place}[place] = 'bx;" if last else f"{place}= 'bx;"
-
-
-def shell(toplevel, ports, values, netlist):
-    """Verilog text of a module ``toplevel`` without ports, around ``<toplevel>_netlist``.
-
-    What were ports are registers, so an input is X until a test sets it, and wires; unpacked arrays have one dimension,
-    their elements in the order of the source.
-    """
-    lines = ["`timescale 1ns / 1ns", f"module {toplevel};", "  reg was_reset = 1'b0;"]
-    lines += [f"  localparam {name} = {value};" for name, value in values]
-    flat = []
-    for name, given, width, count, scalar in ports:
-        kind, bits = "reg" if given else "wire", "" if scalar else f"[{width - 1}:0] "
-        if count is None:
-            lines.append(f"  {kind} {bits}{name};")
-            flat.append(f".{name}({name})")
-            continue
-        elements = [f"{name}[{i}]" for i in range(count)]
-        lines += [f"  {kind} {bits}{name} [0:{count - 1}];", f"  wire [{width * count - 1}:0] flat_{name};"]
-        if given:
-            lines.append(f"  assign flat_{name} = {{{', '.join(elements)}}};")
-        else:  # the first element is the most significant
-            at = [(count - 1 - i) * width for i in range(count)]
-            lines += [f"  assign {e} = flat_{name}[{a}+:{width}];" for e, a in zip(elements, at, strict=True)]
-        flat.append(f".{name}(flat_{name})")
-    lines.append(f"  {toplevel}_netlist netlist ({', '.join(flat)});")
-    lines.append(FORGET.format(registers="\n".join(f"    {line}" for line in forgotten(netlist))))
-    names = [name for name, *_ in ports]
-    watched = [name for name, given, *_ in ports if not given and CONTROL.search(name)]
-    if watched and "rst_ni" in names:
-        formats = ", ".join(f"{name} = %b" for name in watched)
-        lines.append(WATCH.format(outputs=", ".join(watched), formats=formats))
-    return "\n".join([*lines, "endmodule", ""])
-
-
 def build(toplevel, parameters, files=None):
     """Folder with the compiled ``sim.vvp`` of ``toplevel``; built unless the same sources were built before.
 
@@ -199,10 +134,8 @@ def build(toplevel, parameters, files=None):
         version("cocotb"),
         icarus,
         PASSES,
-        *map(inspect.getsource, (elaborate, shell, forgotten)),
-        FORGET,
-        WATCH,
-        CONTROL.pattern,
+        inspect.getsource(elaborate),
+        Path(netlist.__file__).read_text(),
     ]
     contents = [p.read_text() for p in (*files, *sorted(RTL.glob("*.svh")))]
     facts = json.dumps([toplevel, sorted(parameters.items()), tools, contents]).encode()
@@ -214,21 +147,23 @@ def build(toplevel, parameters, files=None):
         work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
         work.mkdir()
         ports, values = elaborate(toplevel, parameters, files)
-        outer, netlist = work / "shell.v", work / "netlist.v"
+        outer, inner = work / "shell.v", work / "netlist.v"
         read = f"read_slang --top {toplevel} -I {RTL} -D SYNTHESIS "
         read += " ".join([*(f"-G {name}={value}" for name, value in parameters.items()), *map(str, files)])
-        commands = [read, *(p.format(top=toplevel, out=netlist) for p in PASSES)]
+        commands = [read, *(p.format(top=toplevel, out=inner) for p in PASSES)]
         with open(log, "w") as out:
             program = [sys.executable, "-c", YOSYS, json.dumps(commands)]
             status = subprocess.run(program, stdout=out, stderr=subprocess.STDOUT, cwd=ROOT).returncode
         if status:
             raise RuntimeError(f"{toplevel} {parameters}: yosys fails; log: {log}")
-        if re.search(r"\binitial\b|^  reg .*=", netlist.read_text(), re.M):
+        text = inner.read_text()
+        if re.search(r"\binitial\b|^  reg .*=", text, re.M):
             raise RuntimeError(f"{toplevel} {parameters}: the netlist has initial values")
-        outer.write_text(shell(toplevel, ports, values, netlist.read_text()))
+        inner.write_text(netlist.unknown_writes(text))
+        outer.write_text(netlist.shell(toplevel, ports, values, text))
         try:
             get_runner("icarus").build(
-                hdl_toplevel=toplevel, sources=[outer, netlist], build_dir=work, log_file=log,
+                hdl_toplevel=toplevel, sources=[outer, inner], build_dir=work, log_file=log,
             )  # fmt: skip
         except RuntimeError as error:
             tail = "\n".join(log.read_text().splitlines()[-15:])

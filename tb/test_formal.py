@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from raydix.blocks import read_table
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -66,6 +68,29 @@ sys.exit(formal.main(["merge"]))
     run = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 1, run.stdout + run.stderr
     assert "formal: merge: refuted: " in run.stderr and "p_fair" in run.stderr
+
+
+@pytest.mark.parametrize(("start", "verdict"), [(0, "proved"), (1, "open")])
+def test_induction_begins(tmp_path, start, verdict):
+    """A statement that is wrong in the first clock alone follows from itself, and is not proved."""
+    text = f"""
+module late (input logic clk_i);
+  logic wrong = 1'b{start};
+  always_ff @(posedge clk_i) wrong <= 1'b0;
+  always_comb never: assert (!wrong);
+endmodule
+"""
+    program = f"""
+import dataclasses, pathlib, sys
+sys.path.insert(0, {str(ROOT / "scripts")!r})
+import formal
+folder = pathlib.Path({str(tmp_path)!r})
+proof = dataclasses.replace(formal.PROOFS["select-n1"], top="late", method="induction 2")
+formal.graph(proof, {{"late.sv": {text!r}}}, folder, "proof", ["RDX_FORMAL"], {{}}, formal.ASSERTIONS)
+print(formal.prove(proof, folder, "proof", False).verdict)
+"""
+    run = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert run.stdout.strip() == verdict, run.stdout + run.stderr
 
 
 def test_bad_input():

@@ -9,9 +9,11 @@ from unittest.mock import patch
 
 import cocotb
 import pytest
-from cocotb.triggers import Timer
+from cocotb.triggers import FallingEdge, Timer
+from cocotb.types import LogicArray
 
 import bench
+import netlist
 import second
 from raydix.blocks import read_table
 from raydix.files import ROOT, RTL
@@ -89,6 +91,67 @@ def test_missing_reset_is_found(icarus, monkeypatch, tmp_path, capfd, module, ol
     with pytest.raises(AssertionError):
         bench.run(f"test_{module.removeprefix('rdx_')}", module)
     assert re.search("unknown output of control|non-0/1 values|Logic\\('X'\\)", capfd.readouterr().out)
+
+
+MEMORY = """\
+module rdx_memory (
+    input  wire logic       clk_i,
+    input  wire logic       we_i,
+    input  wire logic [1:0] at_i,
+    input  wire logic [3:0] data_i,
+    output logic      [3:0] words_o[4]
+);
+  logic [3:0] words[4];
+  always_ff @(posedge clk_i) if (we_i) words[at_i] <= data_i;
+  always_comb for (int i = 0; i < 4; i++) words_o[i] = words[i];
+endmodule
+"""
+
+
+@cocotb.test
+async def unknown_write(dut):
+    """A write that may happen leaves its word unknown, one to anywhere all words; so does the next test's start."""
+    dut.we_i.value = dut.at_i.value = 0
+    await bench.start(dut)
+
+    async def write(enable, place, value):
+        dut.we_i.value, dut.at_i.value, dut.data_i.value = LogicArray(enable), LogicArray(place), value
+        await FallingEdge(dut.clk_i)
+        return bench.Port(dut, "words_o").read()
+
+    assert bench.Port(dut, "words_o").read() == [None] * 4
+    for place in range(4):
+        words = await write("1", f"{place:02b}", place + 5)
+    assert words == [5, 6, 7, 8]
+    assert await write("0", "XX", 9) == [5, 6, 7, 8]
+    assert await write("1", "10", 9) == [5, 6, 9, 8]
+    assert await write("X", "01", 9) == [5, None, 9, 8]
+    assert await write("1", "1X", 9) == [None] * 4
+    await write("1", "00", 5)
+
+
+@cocotb.test
+async def unknown_write_again(dut):
+    """The same after it: what the first test left is forgotten."""
+    await unknown_write.func(dut)
+
+
+def test_unknown_write(icarus, monkeypatch, tmp_path):
+    """Memories know no more than what was surely written, and nothing at the start of a test."""
+    source = tmp_path / "rdx_memory.sv"
+    source.write_text(MEMORY)
+    monkeypatch.setattr(second, "reached", lambda top: [source])
+    bench.run(__name__, "rdx_memory", {}, ["unknown_write", "unknown_write_again"])
+
+
+def test_every_register_is_forgotten():
+    """Parts of registers, too; a declaration of a form that is not known is an error."""
+    text = "module m;\n  reg [67:65] \\a.b[67:65] ;\n  reg c;\n  reg [3:0] d [7:2];\n"
+    lines = list(netlist.forgotten(text))
+    assert lines[:2] == ["netlist.\\a.b[67:65] = 'bx;", "netlist.c = 'bx;"]
+    assert lines[2] == "for (place = 2; place <= 7; place = place + 1) netlist.d [place] = 'bx;"
+    with pytest.raises(RuntimeError, match="of another form"):
+        list(netlist.forgotten(text + "  reg [3:0] e = 1;\n"))
 
 
 @pytest.mark.parametrize(
