@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers of a pixel from front to back, and the background behind them.
 //
-// A layer takes part = T a of the light and lets T (1 - a) through; T is 1 before the first. Where no layer comes, or one of
-// opacity 0, the share is 0 and all is let through, whatever stands at the other ports; so no register needs an enable.
+// A layer takes part = T a of the light and lets T (1 - a) through; T is 1 before the first. Where no layer comes the
+// share is 0 and all is let through, whatever stands at the other ports; so no register needs an enable. With opacity 0 the
+// colour does not count, so it may be unknown.
 //
 // Formats    all numbers u1p16, at most 1. valid_i: a layer comes; first_i, last_i: of its pixel; Layers = 1: both are taken for 1.
 // Rounding   half up, each product; what is let through: down, because the loop from layer to layer is one clock.

@@ -35,7 +35,7 @@ def halve(w, d):
         ),
     )
     says = "every value is de Casteljau's, averages half up; outer ends exact, inner end shared, all within the hull"
-    return Proof("formal_halve", "rdx_halve", says, {"W": w, "D": d}, broken=broken, stages=d)
+    return Proof("formal_halve", "rdx_halve", says, {"W": w, "D": d, "Stages": 0}, broken=broken, stages=d)
 
 
 def select(w, d, n1, rules, below=0):

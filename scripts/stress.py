@@ -104,7 +104,9 @@ def judged_parts(job: Job, rules):
 
             def case(i, part=part, t=t, judged=judged, exact=exact):
                 row = exact[i][~np.isnan(exact[i])]
-                near = row[np.abs(row * 2.0**job.config.digits - t[i, 0] - 0.5).argmin()] if len(row) else np.nan
+                away = np.abs(row * 2.0**job.config.digits - t[i, 0] - 0.5)
+                # the root whose error the table has; the nearest one where it has none
+                near = row[np.abs(away - np.nan_to_num(judged.error[i])).argmin()] if len(row) else np.nan
                 return Case(part.b[i], None, None, None, int(t[i, 0]), float(near))
 
             yield rule, judged, steps, case

@@ -6,6 +6,7 @@
 module formal_halve #(
     parameter int unsigned W = 36,
     parameter int unsigned D = 4,
+    parameter int unsigned Stages = 0,
     parameter int unsigned Stage = D - 1
 ) (
     input wire logic                clk_i,
@@ -19,7 +20,7 @@ module formal_halve #(
   rdx_halve #(
       .W(W),
       .D(D),
-      .Stages(0)
+      .Stages(Stages)
   ) u_halve (
       .clk_i,
       .b_i,

@@ -124,9 +124,9 @@ module formal_ring #(
     end
     `LEMMA(1, p_leave, !(running && here[1]) || age_q == 7'(Turn * 32'(u_ring.leave_q.steps) - 2))
     `LEMMA(1, p_wrap, !(running && here[2]) || age_q == 7'(Turn * 32'(u_ring.wrap_q.steps) - 1))
-    // each step a turn of the ring, a turn to the wrap, and the output's register
-    `LEMMA(2, p_time, !flying || age_q <= 7'((MostSteps + 1) * Slots * Phases + 3))
-    `REACH(r_time, flying && age_q >= 7'((MostSteps - 1) * Slots * Phases))
+    // each step a turn of the ring; the record stands at the output two clocks before the last turn is over, and not sooner
+    `LEMMA(2, p_time, !flying || age_q <= 7'(MostSteps * Turn - 2))
+    `REACH(r_time, flying && age_q == 7'(MostSteps * Turn - 2))
   end else begin : gen_held
     `REACH(r_held, flying && age_q == 7'((MostSteps + 2) * Slots * Phases))
   end
