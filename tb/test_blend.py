@@ -94,6 +94,7 @@ async def reset_forgets(dut):
     dut.valid_i.value = 0
     await bench.start(dut)
     dut.valid_i.value = dut.first_i.value = dut.last_i.value = 1
+    dut.opacity_i.value = ONE
     for _ in range(LATENCY + 3):
         await FallingEdge(dut.clk_i)
     assert dut.valid_o.value == 1

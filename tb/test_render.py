@@ -48,7 +48,8 @@ async def frame_of(dut, random, words, stall):
         done = bool(dut.done_o.value)
         assert done == (len(pixels) == WIDTH * HEIGHT)
         slot, place = (bench.Port(dut, name).read()[0] for name in ("slot_o", "place_o"))
-        asked = None if slot is None or place is None else (slot % len(words), place)  # unknown before the frame
+        assert asked is None or None not in (slot, place), "once an address is known all are"
+        asked = None if None in (slot, place) else (slot % len(words), place)
         await FallingEdge(dut.clk_i)
         dut.start_i.value = 0
         if done:

@@ -10,7 +10,7 @@ module rdx_rsqrt_cover (
 );
   `RDX_COVER(nothing, square_i == '0)
   `RDX_COVER(least, square_i == 36'd1 << 32)
-  `RDX_COVER(most, square_i == '1)
+  `RDX_COVER(most, square_i == 36'd3 << 34)  // of a normal that fills 18 bits
   `RDX_COVER(below_a_quarter, doubled)
   `RDX_COVER(from_a_quarter_on, !doubled)
 endmodule
