@@ -69,7 +69,7 @@ module rdx_blend #(
     end
   end
 
-  // ---- colour; where nothing is seen of it, it may be unknown, and four states know no 0 * x = 0 ----
+  // ---- colour; where its opacity is 0 it may be unknown, and four states know no 0 * x = 0 ----
   unit_t through[1];
   unit_t color  [3];
   rdx_delay #(

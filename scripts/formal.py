@@ -159,11 +159,13 @@ def prove(proof, folder, stem, broken):
             return Outcome("refuted", f"{listed[int(failed[1])]}, clock {failed[2]}", seconds)
     status = re.findall(r"Status = (-?\d+)\s+Frames = (-?\d+)", text)[-1]
     kind, *depth = proof.method.split()
-    if kind == "induction" and not broken:
-        begun = begins(proof, folder, stem)
+    if kind == "induction" and not broken and not begins(proof, folder, stem):
+        text = abc(folder, f"read_aiger {stem}.aig", "fold -s", "strash", f"bmc3 -F {depth[0]} -T {proof.limit}")
+        failed = re.search(r'Output (\d+) of miter "\S*" was asserted in frame (\d+)', text)
         seconds = time.monotonic() - start
-        if not begun:
-            return Outcome("open", f"the first {depth[0]} clocks are not decided", seconds)
+        if failed:
+            return Outcome("refuted", f"{listed[int(failed[1])]}, clock {failed[2]}", seconds)
+        return Outcome("open", f"the first {depth[0]} clocks are not decided", seconds)
     if status[0] == "1":
         return Outcome("proved", f"{len(listed)} assertions", seconds)
     if status[0] == "0":

@@ -89,8 +89,9 @@ def judged_parts(job: Job, rules):
                 found = trace_spiral(compiled, config)
                 judged = stress.judge_spiral(surface, compiled, found, *exact, config)
 
-                def case(i, surface=surface, compiled=compiled, found=found, exact=exact):
-                    return Case(None, surface, compiled.h[i], compiled.e[i], int(found.t[i, 0]), float(exact[0][i, 0]))
+                def case(i, surface=surface, compiled=compiled, found=found, judged=judged, exact=exact):
+                    near = root_of(exact[0][i], found.t[i, 0], judged.error[i], job.config.digits)
+                    return Case(None, surface, compiled.h[i], compiled.e[i], int(found.t[i, 0]), near)
 
                 yield rule, judged, found.steps, case
         return
@@ -103,13 +104,17 @@ def judged_parts(job: Job, rules):
             judged = stress.judge(part, t[:, 0], config, exact)
 
             def case(i, part=part, t=t, judged=judged, exact=exact):
-                row = exact[i][~np.isnan(exact[i])]
-                away = np.abs(row * 2.0**job.config.digits - t[i, 0] - 0.5)
-                # the root whose error the table has; the nearest one where it has none
-                near = row[np.abs(away - np.nan_to_num(judged.error[i])).argmin()] if len(row) else np.nan
-                return Case(part.b[i], None, None, None, int(t[i, 0]), float(near))
+                near = root_of(exact[i], t[i, 0], judged.error[i], job.config.digits)
+                return Case(part.b[i], None, None, None, int(t[i, 0]), near)
 
             yield rule, judged, steps, case
+
+
+def root_of(exact: np.ndarray, t: int, error: float, digits: int) -> float:
+    """Of a ray's exact roots the one whose error, in ulp, the table has; the nearest one where it has none."""
+    row = exact[~np.isnan(exact)]
+    away = np.abs(row * 2.0**digits - t - 0.5)
+    return float(row[np.abs(away - np.nan_to_num(error)).argmin()]) if len(row) else np.nan
 
 
 def nothing() -> dict:

@@ -76,6 +76,8 @@ def unknown_writes(netlist):
         found, before = WRITE.match(line), condition
         condition = line.strip()[3:] if line.strip().startswith("if (") else None
         if not (found and "<=" in line and (name := found[1].strip()) in memories):
+            if "<=" in line and re.split(r"[ \[]", line.strip().removeprefix("else "))[0] in memories:
+                raise RuntimeError(f"the netlist has a write of another form: {line.strip()}")
             continue
         (at, rest), (low, high) = address(line[found.end() - 1 :]), memories[name]
         part, when = rest.split("<=")[0].strip(), before or "1'b1"

@@ -70,14 +70,27 @@ sys.exit(formal.main(["merge"]))
     assert "formal: merge: refuted: " in run.stderr and "p_fair" in run.stderr
 
 
-@pytest.mark.parametrize(("start", "verdict"), [(0, "proved"), (1, "open")])
-def test_induction_begins(tmp_path, start, verdict):
-    """A statement that is wrong in the first clock alone follows from itself, and is not proved."""
+@pytest.mark.parametrize(
+    ("start", "given", "verdict"),
+    [
+        ("2'b00", "1'b1", "proved"),
+        ("2'b01", "1'b1", "refuted"),
+        ("2'b10", "1'b1", "refuted"),
+        ("free", "!free", "proved"),
+    ],
+)
+def test_induction_begins(tmp_path, start, given, verdict):
+    """A statement that is wrong in the first or the second clock alone follows from itself, and is not proved.
+
+    What is given counts in these clocks, too: the last start is anything, and the statement only about what is left.
+    """
+    value = "2'b00" if start == "free" else start
     text = f"""
-module late (input logic clk_i);
-  logic wrong = 1'b{start};
-  always_ff @(posedge clk_i) wrong <= 1'b0;
-  always_comb never: assert (!wrong);
+module late (input logic clk_i, input logic free);
+  logic [1:0] wrong = {value};
+  always_ff @(posedge clk_i) wrong <= {{wrong[0], {"free" if start == "free" else "1'b0"}}};
+  always_comb assume ({given});
+  always_comb never: assert (!wrong[1]);
 endmodule
 """
     program = f"""
@@ -85,7 +98,7 @@ import dataclasses, pathlib, sys
 sys.path.insert(0, {str(ROOT / "scripts")!r})
 import formal
 folder = pathlib.Path({str(tmp_path)!r})
-proof = dataclasses.replace(formal.PROOFS["select-n1"], top="late", method="induction 2")
+proof = dataclasses.replace(formal.PROOFS["select-n1"], top="late", method="induction 3")
 formal.graph(proof, {{"late.sv": {text!r}}}, folder, "proof", ["RDX_FORMAL"], {{}}, formal.ASSERTIONS)
 print(formal.prove(proof, folder, "proof", False).verdict)
 """

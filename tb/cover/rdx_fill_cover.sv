@@ -5,17 +5,19 @@
 
 module rdx_fill_cover (
     input wire logic       clk_i,
+    input wire logic       zero,   // no bit is used even after all shifts
     input wire logic [5:1] skip
 );
   for (genvar s = 1; s <= 5; s++) begin : gen_stage
     `RDX_COVER(shifted, skip[s])
     `RDX_COVER(kept, !skip[s])
   end
-  `RDX_COVER(nothing, skip == '1)
+  `RDX_COVER(nothing, zero)
 endmodule
 
 bind rdx_fill rdx_fill_cover u_cover (
     .clk_i,
+    .zero(gen_stage[5].used_q == '0),
     .skip({
       gen_stage[5].gen_shift.skip,
       gen_stage[4].gen_shift.skip,
