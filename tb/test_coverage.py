@@ -235,7 +235,7 @@ def test_exit_status(small, tmp_path, monkeypatch, capsys):
 # whose tests compare every word with the golden model.
 HOLD_OR_JOIN = ("pkg", "swirl_pkg", "delay", "cells", "constant", "finish", "render", "top", "swirl")
 ARITHMETIC = ("matrix", "gradient")
-PARTS_OF_SWIRL = ("polar", "legs", "chord", "gradient")
+PARTS_OF_SWIRL = ("polar", "side", "legs", "chord", "gradient")
 
 
 def test_every_module_has_bins():
