@@ -32,7 +32,7 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "exact.md"
 MARGIN = 64  # ulp of t by which the found cell is widened on either side
 BAND = 1 / 64  # |cosine| between chord and normal below which t is ill-conditioned
 CONFIGS = (("certified", 1, 24), ("certified", 2, 12), ("certified", 3, 8), ("certified", 4, 6), ("paper", 3, 8))
-LONGEST = "1, 24"  # a digit a step: the most steps for the same way
+LONGEST = "{}, {}".format(*CONFIGS[0][1:])  # a digit a step: the most steps for the same way
 HEADER = (
     "chords", "rule", "n1, K", "given up", "of these missed",
     "judged", "hit", "left out", "missed", "false", "wrong", "undecided",

@@ -152,6 +152,8 @@ def test_every_register_is_forgotten():
     assert lines[2] == "for (place = 2; place <= 7; place = place + 1) netlist.d [place] = 'bx;"
     with pytest.raises(RuntimeError, match="of another form"):
         list(netlist.forgotten(text + "  reg [3:0] e = 1;\n"))
+    with pytest.raises(RuntimeError, match="of another form: else d"):
+        netlist.unknown_writes(text + "    else d [0] <= c;\n")
 
 
 @pytest.mark.parametrize(
