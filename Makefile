@@ -11,7 +11,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime synth pnr exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime bench bench-full bench-check synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -85,6 +85,15 @@ speed: $(READY) ## golden model on one and two threads, and the RTL simulation (
 
 realtime: $(READY) ## cycles of a frame of the processor at 1920x1080 and the clock for 60 Hz, of SCENE= or the paper's figure 2 (ARGS=)
 	@$(BIN)/python scripts/realtime.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+
+bench: $(READY) ## run time against error: golden model and alternatives on the same rays, five scenes or SCENE= (ARGS=)
+	@$(BIN)/python scripts/benchmark.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+
+bench-full: $(READY) ## the same for every scene with one surface, more turns, and the processor's clocks (ARGS=)
+	@$(BIN)/python scripts/benchmark.py --full --rtl --repeats 15 $(ARGS)
+
+bench-check: $(READY) ## compare the ratios with those kept in docs/benchmarks.json (ARGS=)
+	@$(BIN)/python scripts/benchmark.py --check $(ARGS)
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)
