@@ -46,6 +46,7 @@ PAGE = ROOT / "docs" / "benchmarks.md"
 BASELINE = ROOT / "docs" / "benchmarks.json"
 OUT = ROOT / "build" / "bench"
 CHOSEN = ("torus", "hyperboloid", "spiral", "sphere", "cyclide")
+CHOSEN_PATHS = [SCENES / f"{name}.toml" for name in CHOSEN]
 DIGITS = (12, 16, 20, 24)  # of t, about; in whole steps
 WIDTHS = (24, 28, 32)  # of control points, beside 36
 RAYDIX = "Raydix, golden model"
@@ -170,10 +171,15 @@ def measure(scene, repeats: int, tick: Callable[[str], None]) -> list[Row]:
     return list(rows.values())
 
 
-def clocks(scene) -> list[list[str]]:
+def measurable(scene) -> bool:
+    """Whether it is one picture of one surface."""
+    return len(scene.surfaces) == 1 and not scene.cameras
+
+
+def clocks(scene, digits_of_a_step=(1, 2, 3, 4)) -> list[list[str]]:
     """Clocks of a frame of the smallest processor for the scene, by simulation of the RTL, for each n1."""
     rows = []
-    for n1 in (1, 2, 3, 4):
+    for n1 in digits_of_a_step:
         config = Config(
             n1=n1, steps=24 // n1, units=1, rules="certified", rings=4, **families(scene), **frame_parameters(scene, 2)
         )
@@ -281,13 +287,11 @@ def parse(arguments):
 def main(arguments=None) -> int:
     """Measure, print, write; returns the exit status."""
     options = parse(arguments)
-    paths = options.scene or [SCENES / f"{name}.toml" for name in CHOSEN]
     try:
+        paths = options.scene or (sorted(SCENES.glob("*.toml")) if options.full else CHOSEN_PATHS)
+        scenes = [load_scene(path, *options.size) for path in paths]
         if options.full:
-            found = [load_scene(path, *options.size) for path in sorted(SCENES.glob("*.toml"))]
-            scenes = [scene for scene in found if len(scene.surfaces) == 1 and len(scene.frames) <= 1]
-        else:
-            scenes = [load_scene(path, *options.size) for path in paths]
+            scenes = [scene for scene in scenes if measurable(scene)]
         rows, clock_rows = [], []
         with Progress(console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task("", total=None)

@@ -132,6 +132,26 @@ def test_bad_input(script, tmp_path, capsys, scene, words):
     assert words in said and "Traceback" not in said and not out.exists()
 
 
+def test_scenes_of_the_full_run(script):
+    """One picture of one surface: no scene with several, no sequence."""
+    names = {p.stem for p in SCENES.glob("*.toml") if script.measurable(load_scene(p))}
+    assert names >= {"torus", "spiral", "shell", "quartic"} and not names & {
+        "gallery",
+        "families",
+        "glass",
+        "turntable",
+    }
+
+
+@pytest.mark.long
+def test_clocks(script):
+    """Clocks of the smallest processor, by simulation: a pixel of the rectangle takes one at least."""
+    scene = load_scene(SCENES / "sphere.toml", 64, 48)
+    ((name, parameters, cycles, ratio, steps),) = script.clocks(scene, (3,))
+    assert (name, parameters) == ("sphere", "3, 8")
+    assert int(cycles.replace(",", "")) > 500 and 0.2 < float(ratio) < 20 and int(steps.replace(",", "")) > 1000
+
+
 def test_page_has_what_was_measured(script):
     """The page's tables are those of the baseline; certified settings of 24 digits have no wrong silhouette pixel."""
     rows = [script.Row(**r) for r in json.loads(script.BASELINE.read_text())]
