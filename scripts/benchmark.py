@@ -231,7 +231,7 @@ def lost(rows: list[Row], baseline: list[dict]) -> list[str]:
         own = next(r for r in some if r.scene == scene and r.method == RAYDIX and r.variant == REFERENCE)
         return float(np.exp(np.mean([np.log(1 / r.ratio) for r in others]))), own.spread
 
-    before = [Row(**{**row, "seconds": row["seconds"]}) for row in baseline]
+    before = [Row(**row) for row in baseline]
     known = {row.scene for row in before}
     found = []
     for scene in dict.fromkeys(row.scene for row in rows if row.scene in known):

@@ -4,10 +4,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt  # noqa: E402  (after the choice of the backend)
+from matplotlib.figure import Figure
 
 FLOOR = 1e-16  # errors below are drawn here
 COLOURS = {"1": "#fdae6b", "2": "#f16913", "3": "#a63603", "4": "#5b1a02"}  # by n1
@@ -21,7 +18,8 @@ def plot(rows: Sequence, own: str, path: Path) -> None:
     own    name of the method whose rules and digits have lines of their own
     A hollow mark has silhouette pixels that are wrong.
     """
-    figure, axes = plt.subplots(figsize=(8, 5.5))
+    figure = Figure(figsize=(8, 5.5))
+    axes = figure.subplots()
     lines: dict[str, list] = {}
     for row in rows:
         rule, *rest = row.variant.split(", ")
@@ -54,4 +52,3 @@ def plot(rows: Sequence, own: str, path: Path) -> None:
     axes.grid(True, which="major", color="0.9")
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     figure.savefig(path, dpi=110, bbox_inches="tight")
-    plt.close(figure)

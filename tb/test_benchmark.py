@@ -15,8 +15,7 @@ from raydix.scene import load_scene
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "scenes"
 SIZE = 48, 36
-# method, coarse setting or fine one: 99.9 % error allowed, in units of what was asked for; and wrong silhouette pixels
-SILHOUETTE = 3
+SILHOUETTE = 3  # pixels that samples may get wrong
 
 
 @pytest.fixture(scope="module")

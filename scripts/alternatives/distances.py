@@ -9,7 +9,10 @@ from math import atan2, hypot, pi, sqrt
 import numpy as np
 from numba import njit
 
+from . import samples
 from .frame import NOTHING, along
+
+SAMPLES = 256
 
 
 @njit(error_model="numpy")
@@ -86,56 +89,22 @@ def sphere_tracing(kind, tolerance):
     return solve
 
 
-def sampled_bisection(kind, digits):
-    """The first change of sign of 256 samples, halved until ``digits`` digits are known."""
+def along_ray(kind):
+    """The distance as a compiled function of (t, h, d, sizes)."""
     distance = DISTANCES[kind]
 
     @njit(error_model="numpy")
-    def solve(h, d, s):
-        before = distance(h, s)
-        for i in range(1, 257):
-            after = distance(along(h, d, i / 256), s)
-            if (before > 0.0) != (after > 0.0):
-                a, b = (i - 1) / 256, i / 256
-                for _ in range(digits - 8):
-                    middle = 0.5 * (a + b)
-                    if (distance(along(h, d, middle), s) > 0.0) == (before > 0.0):
-                        a = middle
-                    else:
-                        b = middle
-                return 0.5 * (a + b)
-            before = after
-        return NOTHING
+    def value(t, h, d, s):
+        return distance(along(h, d, t), s)
 
-    return solve
+    return value
+
+
+def sampled_bisection(kind, digits):
+    """The first change of sign of 256 samples, halved until ``digits`` digits are known."""
+    return samples.bisection(along_ray(kind), SAMPLES, digits)
 
 
 def sampled_regula_falsi(kind, tolerance):
     """The first change of sign of 256 samples, then the Illinois method."""
-    distance = DISTANCES[kind]
-
-    @njit(error_model="numpy")
-    def solve(h, d, s):
-        fa = distance(h, s)
-        for i in range(1, 257):
-            fb = distance(along(h, d, i / 256), s)
-            if (fa > 0.0) != (fb > 0.0):
-                a, b, side = (i - 1) / 256, i / 256, 0
-                for _ in range(100):
-                    t = (a * fb - b * fa) / (fb - fa)
-                    f = distance(along(h, d, t), s)
-                    if (f > 0.0) == (fb > 0.0):
-                        done = abs(b - t) < tolerance
-                        b, fb, fa = t, f, 0.5 * fa if side == 1 else fa
-                        side = 1
-                    else:
-                        done = abs(t - a) < tolerance
-                        a, fa, fb = t, f, 0.5 * fb if side == -1 else fb
-                        side = -1
-                    if done or f == 0.0:
-                        break
-                return t
-            fa = fb
-        return NOTHING
-
-    return solve
+    return samples.regula_falsi(along_ray(kind), SAMPLES, tolerance)

@@ -7,14 +7,16 @@ Each maker takes what trades time for accuracy and gives a compiled function of 
 import numpy as np
 from numba import njit
 
+from . import samples
 from .frame import NOTHING
 
+SAMPLES = 64
 TINY = 1e-200  # instead of a first coefficient of zero
 ROUNDING = 1e-14  # of an interval bound, of the sum of its terms
 
 
 @njit(error_model="numpy")
-def value(c, degree, t):
+def value(t, c, degree):
     """The polynomial at t."""
     v = c[degree]
     for i in range(degree - 1, -1, -1):
@@ -107,77 +109,29 @@ def companion(_):
     return solve
 
 
-@njit(error_model="numpy")
-def bracket(c, degree, samples):
-    """The first of ``samples`` equal cells with a change of sign: its ends and the values there; NOTHING: none."""
-    before = c[0]
-    for i in range(1, samples + 1):
-        after = value(c, degree, i / samples)
-        if (before > 0.0) != (after > 0.0):
-            return (i - 1) / samples, i / samples, before, after
-        before = after
-    return NOTHING, 0.0, 0.0, 0.0
-
-
 def bisection(digits):
     """The first change of sign of 64 samples, halved until ``digits`` digits are known."""
-
-    @njit(error_model="numpy")
-    def solve(c, degree):
-        a, b, fa, _ = bracket(c, degree, 64)
-        if a < 0.0:
-            return NOTHING
-        for _ in range(digits - 6):
-            middle = 0.5 * (a + b)
-            if (value(c, degree, middle) > 0.0) == (fa > 0.0):
-                a = middle
-            else:
-                b = middle
-        return 0.5 * (a + b)
-
-    return solve
+    return samples.bisection(value, SAMPLES, digits)
 
 
 def regula_falsi(tolerance):
     """The first change of sign of 64 samples, then the Illinois method."""
-
-    @njit(error_model="numpy")
-    def solve(c, degree):
-        a, b, fa, fb = bracket(c, degree, 64)
-        if a < 0.0:
-            return NOTHING
-        side = 0
-        for _ in range(100):
-            t = (a * fb - b * fa) / (fb - fa)
-            f = value(c, degree, t)
-            if (f > 0.0) == (fb > 0.0):
-                done = abs(b - t) < tolerance
-                b, fb = t, f
-                fa = 0.5 * fa if side == 1 else fa
-                side = 1
-            else:
-                done = abs(t - a) < tolerance
-                a, fa = t, f
-                fb = 0.5 * fb if side == -1 else fb
-                side = -1
-            if done or f == 0.0:
-                return t
-        return t
-
-    return solve
+    return samples.regula_falsi(value, SAMPLES, tolerance)
 
 
 def newton(tolerance):
     """The first change of sign of 64 samples, then Newton's steps, and halves where they leave the bracket."""
 
+    bracket = samples.first_change(value, SAMPLES)
+
     @njit(error_model="numpy")
     def solve(c, degree):
-        a, b, fa, _ = bracket(c, degree, 64)
+        a, b, fa, _ = bracket(c, degree)
         if a < 0.0:
             return NOTHING
         t = 0.5 * (a + b)
         for _ in range(100):
-            f = value(c, degree, t)
+            f = value(t, c, degree)
             if (f > 0.0) == (fa > 0.0):
                 a = t
             else:
@@ -212,7 +166,7 @@ def interval_bisection(tolerance):
             if low > ROUNDING * size or high < -ROUNDING * size:
                 continue
             if b - a < tolerance:
-                if (value(c, degree, a) > 0.0) != (value(c, degree, b) > 0.0):
+                if (value(a, c, degree) > 0.0) != (value(b, c, degree) > 0.0):
                     return 0.5 * (a + b)
                 continue
             middle = 0.5 * (a + b)
@@ -282,7 +236,7 @@ def bezier_clipping(tolerance):
             if (high - low) * (b - a) < tolerance:
                 t = a + 0.5 * (low + high) * (b - a)
                 before, after = max(0.0, t - tolerance), min(1.0, t + tolerance)
-                if (value(c, degree, before) > 0.0) != (value(c, degree, after) > 0.0):
+                if (value(before, c, degree) > 0.0) != (value(after, c, degree) > 0.0):
                     return min(t, 1.0 - 2.0**-53)
                 count -= 1
                 continue
