@@ -11,7 +11,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime bench bench-full bench-check synth pnr exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime bench bench-full bench-check explore synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -94,6 +94,9 @@ bench-full: $(READY) ## the same for every scene with one surface, more turns, a
 
 bench-check: $(READY) ## compare the ratios with those kept in docs/benchmarks.json (ARGS=)
 	@$(BIN)/python scripts/benchmark.py --check $(ARGS)
+
+explore: $(READY) ## the trade-off: design points placed, simulated and compared; hours, resumes (JOBS=2 ARGS=)
+	@$(BIN)/python scripts/explore.py --jobs $(JOBS) $(ARGS)
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)

@@ -3,10 +3,11 @@
 
 Each finds the first root on the part of a ray inside of the surface's box. None shares code with the golden model or
 with the oracle that judges both. `polynomials` solve algebraic surfaces, `distances` march or sample by a signed
-distance.
+distance; `programs` are others' own, POV-Ray and Embree.
 """
 
 from .frame import Problem, problem_of
 from .methods import METHODS, Method, methods_for
+from .programs import PROGRAMS, Program, programs_for
 
-__all__ = ["METHODS", "Method", "Problem", "methods_for", "problem_of"]
+__all__ = ["METHODS", "PROGRAMS", "Method", "Problem", "Program", "methods_for", "problem_of", "programs_for"]

@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The paper's trade-off, steps against hardware: every design point of the sweep, placed, simulated, and compared.
+
+    scripts/explore.py                        the sweep, two at a time; what was measured before is not measured again
+    scripts/explore.py quadric --limit 4      the first four of a family
+    scripts/explore.py --no-pnr               cells, clocks and errors, no place and route
+    scripts/explore.py --scheduler tcp://host:8786   on the workers of a Dask cluster
+    scripts/explore.py --write                renew docs/exploration.md, its picture and docs/exploration.json
+
+A result is kept in build/explore as soon as it is there, by all that it depends on, so an interruption loses only what
+was at work. Workers of a cluster need the same checkout with `scripts` on their PYTHONPATH; others are refused.
+Writes explore.json, explore.csv and explore.png there, too. Exit status 0; 2: bad input, or a point failed.
+"""
+
+import argparse
+import csv
+import json
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from exploration.designs import SCENE_OF, Design, all_designs
+from exploration.measure import TOOLS, key, measure
+from exploration.pareto import FRONTS, Point, front, point_of, recommended
+from exploration.plot import plot
+from raydix.blocks import show_table, write_table
+from raydix.config import ConfigError
+from raydix.rtl import RtlError
+from synth import SynthError
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD = ROOT / "build" / "explore"
+PAGE = ROOT / "docs" / "exploration.md"
+BASELINE = ROOT / "docs" / "exploration.json"
+PICTURE = ROOT / "docs" / "images" / "exploration.png"
+COLUMNS = (
+    "engine",
+    "LUT4",
+    "FF",
+    "DSP",
+    "BRAM",
+    "fmax, MHz",
+    "Mray/s",
+    "Mray/s per 1,000 LUT4",
+    "latency, ns",
+    "error 99.9 %",
+    "silhouette",
+    "on the front of",
+)
+GOALS = ("surfaces", "goal", "engine", "LUT4", "Mray/s", "latency, ns", "error 99.9 %")
+
+
+@contextmanager
+def executor(scheduler: str | None, jobs: int) -> Iterator[Executor]:
+    """Where the design points are measured: threads that start the tools, or the workers of a Dask cluster.
+
+    Raises OSError where there is no scheduler.
+    """
+    if scheduler is None:
+        pool = ThreadPoolExecutor(jobs)
+        try:
+            yield pool
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+            TOOLS.end()
+        return
+    from distributed import Client  # takes a second to import
+
+    with Client(scheduler, timeout="10s") as client, client.get_executor(pure=False) as pool:
+        yield pool
+
+
+def keep(path: Path, value) -> None:
+    """Write a result, complete or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(f".{os.getpid()}")
+    part.write_text(json.dumps(value, indent=1) + "\n")
+    os.replace(part, path)
+
+
+def sweep(designs: list[Design], options) -> dict[Design, dict]:
+    """Results of all designs, in their order; what is kept is not measured. Raises the first failure."""
+    names = {design: key(design, options.pnr) for design in designs}
+    kept = {design: options.out / f"{name}.json" for design, name in names.items()}
+    missing = [design for design in designs if not kept[design].exists()]
+    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bar:
+        task = bar.add_task("design points", total=len(designs), completed=len(designs) - len(missing))
+        if missing:
+            with executor(options.scheduler, options.jobs) as pool:
+                futures = {pool.submit(measure, d.as_dict(), names[d], options.pnr): d for d in missing}
+                for future in as_completed(futures):
+                    design = futures[future]
+                    try:
+                        keep(kept[design], future.result())
+                    except (SynthError, RtlError, RuntimeError) as error:
+                        raise RuntimeError(f"{design.family} {design}: {error}") from None
+                    bar.update(task, advance=1, description=f"{design.family} {design}")
+    return {design: json.loads(path.read_text()) for design, path in kept.items()}
+
+
+def placed(results: dict[Design, dict]) -> list[Point]:
+    """The designs that have a clock."""
+    return [point_of(str(design), result) for design, result in results.items() if "fmax" in result]
+
+
+def rows_of(points: list[Point]) -> list[list[str]]:
+    """The table of a family."""
+    fronts = {name: front(points, figures) for name, figures in FRONTS.items()}
+    return [
+        [
+            p.name,
+            f"{p.lut4:,}",
+            f"{p.ff:,}",
+            f"{p.dsp}",
+            f"{p.bram}",
+            f"{p.fmax:.1f}",
+            f"{p.rate:.1f}",
+            f"{p.per_klut:.2f}",
+            f"{p.latency:,.0f}",
+            f"{p.error:.1e}",
+            f"{p.silhouette}",
+            ", ".join(name for name, best in fronts.items() if p in best),
+        ]
+        for p in points
+    ]
+
+
+def goals_of(points: list[Point], family: str) -> list[list[str]]:
+    """What to take for which goal."""
+    found = []
+    for goal, p in recommended(points).items():
+        figures = [p.name, f"{p.lut4:,}", f"{p.rate:.1f}", f"{p.latency:,.0f}", f"{p.error:.1e}"] if p else ["none"]
+        found.append([family, goal, *figures, *[""] * (5 - len(figures))])
+    return found
+
+
+def save(results: dict[Design, dict], points: list[Point], out: Path) -> None:
+    """JSON, CSV and the picture."""
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "explore.json").write_text(json.dumps(list(results.values()), indent=1) + "\n")
+    with (out / "explore.csv").open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(Point._fields)
+        writer.writerows(points)
+    if points:
+        plot(points, out / "explore.png")
+
+
+def publish(results: dict[Design, dict], points: list[Point], families: list[str]) -> None:
+    """The page, its picture, and the results."""
+    keep(BASELINE, list(results.values()))
+    for family in families:
+        write_table(PAGE, family, COLUMNS, rows_of([p for p in points if p.family == family]))
+    goals = [row for family in families for row in goals_of([p for p in points if p.family == family], family)]
+    write_table(PAGE, "goals", GOALS, goals)
+    plot(points, PICTURE)
+
+
+def parse(arguments):
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("family", nargs="*", help=f"{', '.join(SCENE_OF)} (default: all)")
+    parser.add_argument("--limit", type=int, help="only so many points")
+    parser.add_argument("--no-pnr", dest="pnr", action="store_false", help="no place and route")
+    parser.add_argument("--jobs", type=int, default=2, help="points at a time on this machine (default: 2)")
+    parser.add_argument("--scheduler", metavar="tcp://HOST:PORT", help="of a Dask cluster that measures them")
+    parser.add_argument("--out", type=Path, default=BUILD, help="folder (default: build/explore)")
+    parser.add_argument("--write", action="store_true", help="renew docs/exploration.md")
+    options = parser.parse_args(arguments)
+    for name in options.family:
+        if name not in SCENE_OF:
+            parser.error(f"family: found {name!r}; allowed: {', '.join(SCENE_OF)}")
+    for name in ("jobs", "limit"):
+        if (value := getattr(options, name)) is not None and value < 1:
+            parser.error(f"--{name}: found {value}; allowed: 1 or more")
+    if options.write and (options.family or options.limit or not options.pnr):
+        parser.error("--write: found with a part of the sweep; allowed: with all of it")
+    return options
+
+
+def main(arguments=None) -> int:
+    """Measure, print, write; returns the exit status."""
+    options = parse(arguments)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    designs = [d for d in all_designs() if not options.family or d.family in options.family][: options.limit]
+    try:
+        results = sweep(designs, options)
+        points = placed(results)
+        save(results, points, options.out)
+        families = list(dict.fromkeys(design.family for design in designs))
+        if options.write:
+            publish(results, points, families)
+    except (ConfigError, RuntimeError, ValueError, OSError) as error:
+        print(f"explore: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print(f"explore: interrupted; what was finished is kept in {options.out}", file=sys.stderr)
+        return 130
+    for family in families:
+        mine = [p for p in points if p.family == family]
+        show_table(f"{family}: engines, scene {SCENE_OF[family]}", COLUMNS, rows_of(mine), ("engine",), 200)
+    goals = [row for family in families for row in goals_of([p for p in points if p.family == family], family)]
+    show_table("What to take", GOALS, goals, GOALS[:3], 160)
+    print(f"{len(results)} design points, {len(points)} of them placed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
