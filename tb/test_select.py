@@ -11,9 +11,14 @@ import latency
 from raydix.bound import bounded
 from raydix.cells import subdivide
 from raydix.formats import FORM_INDEX, FORM_WORDS, VECTOR_WIDTH, ZONES
-from raydix.select import certified, changes, mixed, paper
+from raydix.select import certified, changes, paper
 
 CERTIFIED, PAPER, BOTH = 1, 2, 3
+
+
+def mixed(cells, at, degree):
+    """A coefficient is positive and another is not."""
+    return len({value > 0 for value in cells[at : at + degree + 1]}) == 2
 
 
 def candidates(cells, excluded, last, by_paper, degree, n1, possible=0):
@@ -26,10 +31,10 @@ def candidates(cells, excluded, last, by_paper, degree, n1, possible=0):
     return (mask if last else mask | possible) & ~excluded
 
 
-def first_two(mask):
-    """Numbers of the lowest two bits, None where there is none."""
+def first_two(mask, count):
+    """Numbers of the lowest two bits, ``count`` where there is none."""
     bits = [j for j in range(mask.bit_length()) if mask >> j & 1]
-    return (bits + [None, None])[:2]
+    return tuple(bits + [count, count])[:2]
 
 
 def stimuli(dut, count):
@@ -71,10 +76,10 @@ async def equal(dut, items):
         by_paper = rules == PAPER or (rules == BOTH and item["paper_i"])
         last, possible = item["last_i"], item["possible_i"]
         mask = candidates(item["cells_i"], item["excluded_i"], last, by_paper, degree, n1, possible)
-        pick, following = first_two(mask)
-        outputs = {"found_o": pick is not None, "more_o": following is not None}
+        pick, following = first_two(mask, count := 1 << n1)
+        outputs = {"found_o": pick < count, "more_o": following < count}
         # without a candidate the item keeps the start of its cell; what does not exist is 0
-        return outputs | {"pick_o": [pick or 0], "next_o": [following or 0]}
+        return outputs | {"pick_o": [pick % count], "next_o": [following % count]}
 
     await bench.start(dut)
     items = (less(item, below) for item in items if least + below <= min(item["cells_i"]))
@@ -112,13 +117,14 @@ async def walk_equals_masks(dut):
         item = flags(random, b, n1)
         cells = b + [0] * ((1 << n1) * degree + 1 - size)
         subdivide(cells, degree, n1)
-        wanted = first_two(candidates(cells, item["excluded_i"], item["last_i"], False, degree, n1))
+        count = 1 << n1
+        wanted = first_two(candidates(cells, item["excluded_i"], item["last_i"], False, degree, n1), count)
         parent = list(b)
-        mask = certified(parent, [0] * ((n1 + 1) * size), item["excluded_i"], item["last_i"], degree, n1)
+        found = certified(parent, [0] * ((n1 + 1) * 5), item["excluded_i"], item["last_i"], degree, n1)
         pick = wanted[0]
-        points = b if pick is None else cells[pick * degree : pick * degree + size]
-        if first_two(mask) != wanted or parent != points:
-            raise bench.mismatch(number, item, [f"expected {wanted} {points}, the walk has {bin(mask)} {parent}"])
+        points = b if pick == count else cells[pick * degree : pick * degree + size]
+        if found != wanted or parent != points:
+            raise bench.mismatch(number, item, [f"expected {wanted} {points}, the walk has {found} {parent}"])
 
 
 @cocotb.test

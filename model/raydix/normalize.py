@@ -11,8 +11,9 @@ def redundant_bits(values, at, count, width, limit):
     for i in range(at, at + count):
         used |= values[i] ^ (values[i] >> 63)
     shift = 0
-    while shift < limit and used < (1 << (width - 2 - shift)):
-        shift += 1
+    for stage in (32, 16, 8, 4, 2, 1):
+        if stage <= limit and used < (1 << max(0, width - 1 - shift - stage)):
+            shift += stage
     return shift
 
 

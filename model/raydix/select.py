@@ -5,18 +5,8 @@ A value counts as positive if it is above zero; zero counts as not positive. A m
 """
 
 from .guess import guess
-from .halve import halve
+from .halve import halves
 from .kernel import kernel
-
-
-@kernel
-def mixed(cells, at, degree):
-    """A coefficient is positive and another is not: the hull property does not exclude a root."""
-    first = cells[at] > 0
-    for i in range(at + 1, at + degree + 1):
-        if (cells[i] > 0) != first:
-            return True
-    return False
 
 
 @kernel
@@ -38,45 +28,72 @@ def paper(cells, excluded, degree, count):
 
 
 @kernel
+def mixed(cell):
+    """Of five control points less one, some have the sign bit set and some not: the hull does not exclude a root."""
+    a, b, c, d, e = cell
+    return ((a | b | c | d | e) ^ (a & b & c & d & e)) < 0
+
+
+@kernel
+def open_cells(j, size, excluded):
+    """Whether one of ``size`` cells from j on is not excluded."""
+    span = ((1 << size) - 1) << j
+    return excluded & span != span
+
+
+@kernel
 def certified(cells, nodes, excluded, last, degree, n1):
-    """The first two candidates of the certified rule, and the control points of the first.
+    """The first two candidates of the certified rule as (first, second), J where there is none.
 
     A candidate is a cell that is mixed (at the last level: changes sign) and not excluded. The tree of
     halves is walked from the left, and a node that is not mixed is left out with all its cells: averages
     stay within the hull of their inputs, so none of them could be mixed. ``cells`` holds the
     parent's control points, and on return those of the first candidate if there is one.
 
-    ``nodes`` is scratch for (n1+1)*(degree+1) values: the left half at work at 0, and the right half that
-    waits at tree level l from l*(degree+1) on.
+    The walk is done on control points less one: what is not positive then has its sign bit set, and averages are the
+    same less one. ``nodes`` is scratch for (n1+1)*5 values: right halves that wait, by their level.
     """
-    size = degree + 1
     count = 1 << n1
-    for i in range(size):
-        nodes[i] = cells[i]
-    mask = 0
-    level = 0  # of the node at nodes[at]; its first cell is j
-    at = 0
+    i, k, m = min(2, degree), min(3, degree), min(4, degree)
+    node = (cells[0] - 1, cells[1] - 1, cells[i] - 1, cells[k] - 1, cells[m] - 1)
+    first = count
+    waiting = 0  # bit l: a right half waits at level l
+    level = 0
     j = 0
-    while j < count:
-        cells_of_node = ((1 << (count >> level)) - 1) << j
-        if excluded & cells_of_node != cells_of_node and mixed(nodes, at, degree):
-            if level < n1:
-                level += 1
-                right = level * size
-                for i in range(size):
-                    nodes[right + i] = nodes[at + i]
-                halve(nodes, right, nodes, 0, degree)
-                at = 0
-                continue
-            if not last or changes(nodes, at, degree):
-                if mask != 0:
-                    return mask | 1 << j
-                mask = 1 << j
-                for i in range(size):
-                    cells[i] = nodes[at + i]
-        j += count >> level
-        level = n1  # the node at j is a right half; its level follows from j's trailing zeros
-        while level > 0 and (j >> (n1 - level)) & 1 == 0:
+    found = mixed(node) and (excluded == 0 or open_cells(0, count, excluded))
+    while True:
+        while found and level < n1:
+            left, right = halves(node, degree)
+            level += 1
+            size = count >> level
+            in_left, in_right = mixed(left), mixed(right)
+            if excluded != 0:
+                in_left = in_left and open_cells(j, size, excluded)
+                in_right = in_right and open_cells(j + size, size, excluded)
+            if in_left and in_right:
+                waiting |= 1 << level
+                at = 5 * level
+                nodes[at], nodes[at + 1], nodes[at + 2], nodes[at + 3], nodes[at + 4] = right
+            found = in_left or in_right
+            if in_left:
+                node = left
+            else:
+                node = right
+                j += size
+        if found and (not last or (node[0] ^ node[4]) < 0):
+            if first != count:
+                return first, j
+            first = j
+            cells[m], cells[k], cells[i] = node[4] + 1, node[3] + 1, node[2] + 1
+            cells[1], cells[0] = node[1] + 1, node[0] + 1
+        if waiting == 0:
+            return first, count
+        level = n1
+        while (waiting >> level) & 1 == 0:
             level -= 1
-        at = level * size
-    return mask
+        waiting ^= 1 << level
+        at = 5 * level
+        node = (nodes[at], nodes[at + 1], nodes[at + 2], nodes[at + 3], nodes[at + 4])
+        size = count >> level
+        j = (j & -2 * size) + size
+        found = True

@@ -40,13 +40,13 @@ class Work(NamedTuple):
     """Scratch of a step: see :func:`new_work`."""
 
     cells: np.ndarray  # J*degree + 1 values
-    nodes: np.ndarray  # (n1+1)*(degree+1) values
+    nodes: np.ndarray  # (n1+1)*5 values
     lanes: Lanes  # J+1 lanes
 
 
 def new_work(n1: int, degree: int) -> Work:
     """Scratch for a step of J = 2**n1 cells and control points of a degree (1: vector sums)."""
-    return Work(zeros((degree << n1) + 1), zeros((n1 + 1) * (degree + 1)), new_lanes((1 << n1) + 1))
+    return Work(zeros((degree << n1) + 1), zeros((n1 + 1) * 5), new_lanes((1 << n1) + 1))
 
 
 @kernel
@@ -73,6 +73,18 @@ def boundaries(item, work, form, n1, general):
     cells[0] = item[B]
     cells[count] = item[B + 1]
     return zone
+
+
+@kernel
+def first_two(mask, count):
+    """Positions of the two lowest bits of a mask of ``count`` bits, ``count`` where there is none."""
+    pick = 0
+    while pick < count and (mask >> pick) & 1 == 0:
+        pick += 1
+    following = pick + 1
+    while following < count and (mask >> following) & 1 == 0:
+        following += 1
+    return pick, min(following, count)
 
 
 @kernel
@@ -105,24 +117,19 @@ def step(item, form, work, n1, steps, width, degree, general):
             cells[i] = item[B + i]
         if item[PAPER]:
             subdivide(cells, degree, n1)
+    count = 1 << n1
     if item[PAPER]:
-        mask = paper(cells, excluded, degree, 1 << n1)
+        pick, following = first_two(paper(cells, excluded, degree, count), count)
     elif degree == 1:
-        mask = bounded(cells, excluded, last, form, level - item[FIRST], zone, n1)
+        pick, following = first_two(bounded(cells, excluded, last, form, level - item[FIRST], zone, n1), count)
     else:
-        mask = certified(cells, nodes, excluded, last, degree, n1)
+        pick, following = certified(cells, nodes, excluded, last, degree, n1)
     item[STEPS] += 1
     # pick the first, remember the second
-    if mask == 0:
+    if pick == count:
         item[STATUS] = DONE
     else:
-        pick = 0
-        while (mask >> pick) & 1 == 0:
-            pick += 1
-        following = pick + 1
-        while mask >> following != 0 and (mask >> following) & 1 == 0:
-            following += 1
-        if mask >> following != 0:
+        if following < count:
             item[TNEXT] = item[T] | following << shift
             item[PENDING] = 1
         item[T] |= pick << shift

@@ -95,8 +95,8 @@ class Sweep:
 SWEEPS = (
     Sweep("quadric", (3, 1, 2, 4)),
     Sweep("quartic", (3, 1, 2, 4)),
-    Sweep("quadric", (1,), others={"rings": (2, 4, 8)}),
-    Sweep("quadric", (1,), others={"units": (2, 4, 8)}),
+    Sweep("quadric", (1,), others={"rings": (2, 4)}),
+    Sweep("quadric", (1,), others={"units": (2, 4)}),
     Sweep("quadric", (2, 3), others={"rings": (2,)}),
     Sweep("quadric", (1, 2, 3, 4), others={"rules": ("paper", "both")}),
     Sweep("quadric", (1, 2, 3, 4), others={"width": (24, 30)}),
@@ -107,8 +107,8 @@ SWEEPS = (
     Sweep("quadric", (2,), others={"rings": (4,)}),
     Sweep("quadric", (2,), others={"units": (2,)}),
     Sweep("quadric", (3,), others={"rings": (3,)}),
-    Sweep("quartic", (2, 3), others={"rings": (2,)}),
-    Sweep("spiral", (1, 2, 3), others={"lanes": (1,)}),
+    Sweep("quartic", (3,), others={"rings": (2,)}),
+    Sweep("spiral", (1, 2), others={"lanes": (1,)}),
 )
 
 
