@@ -11,7 +11,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules spirals errors stress search speed realtime bench bench-full bench-check explore synth pnr exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -65,6 +65,9 @@ accuracy: $(READY) ## error against float64 roots of the ideal scene, of SCENE= 
 rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
 	@$(BIN)/python scripts/rules.py $(ARGS)
 
+types: $(READY) ## both rules and every width on random chords through each algebraic type of surface (ARGS=)
+	@$(BIN)/python scripts/every_type.py $(ARGS)
+
 spirals: $(READY) ## random spirals against dense sampling: missed roots, error of t, steps, bounds (ARGS=)
 	@$(BIN)/python scripts/spirals.py $(ARGS)
 
@@ -77,7 +80,10 @@ stress: $(READY) ## 10^7 difficult rays in named categories against exact roots,
 search: $(READY) ## evolutionary search for the largest error and the most steps (ARGS=)
 	@$(BIN)/python scripts/search.py $(ARGS)
 
-exact-spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
+exact-types: $(READY) ## both rules and every width on random chords through each algebraic type of surface (ARGS=)
+	@$(BIN)/python scripts/every_type.py $(ARGS)
+
+spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
 	@$(BIN)/python scripts/exact_spirals.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
@@ -94,6 +100,9 @@ bench-full: $(READY) ## the same for every scene with one surface, more turns, a
 
 bench-check: $(READY) ## compare the ratios with those kept in docs/benchmarks.json (ARGS=)
 	@$(BIN)/python scripts/benchmark.py --check $(ARGS)
+
+scaling: $(READY) ## time against pixels, surfaces, depth complexity, unneeded parts: golden model and processor (ARGS=)
+	@$(BIN)/python scripts/scaling.py $(ARGS)
 
 explore: $(READY) ## the trade-off: design points placed, simulated and compared; hours, resumes (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/explore.py --jobs $(JOBS) $(ARGS)
