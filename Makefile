@@ -11,7 +11,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore synth pnr exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore trace-ray synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -106,6 +106,11 @@ scaling: $(READY) ## time against pixels, surfaces, depth complexity, unneeded p
 
 explore: $(READY) ## the trade-off: design points placed, simulated and compared; hours, resumes (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/explore.py --jobs $(JOBS) $(ARGS)
+
+trace-ray: $(READY) ## follow the ray of a pixel through golden model and RTL, step by step, and draw it (SCENE= PIXEL=x,y ARGS=)
+	@[ -n "$(SCENE)" ] && [ -n "$(PIXEL)" ] || { \
+	  echo "make trace-ray: found SCENE=$(SCENE) PIXEL=$(PIXEL); allowed: both, for example SCENE=scenes/torus.toml PIXEL=320,200" >&2; exit 2; }
+	@$(BIN)/python scripts/trace_ray.py "$(SCENE)" --pixel "$(PIXEL)" $(ARGS)
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)

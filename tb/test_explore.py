@@ -162,8 +162,15 @@ def test_no_scheduler(explore, tmp_path, capsys):
 
 def test_other_files_are_refused(script):
     """A worker whose files differ says so and measures nothing."""
-    with pytest.raises(RuntimeError, match="same checkout"):
+    with pytest.raises(RuntimeError, match="one checkout"):
         script.measure(script.Design("quadric").as_dict(), "another key", False)
+
+
+def test_key_has_what_a_result_depends_on(script):
+    """The golden model's modules and what they import, not the tools beside it."""
+    names = {path.name for path in script.modules("compile", "golden", "oracle", "rtl", "scene", "shade")}
+    assert names >= {"select.py", "halve.py", "normalize.py", "formats.py", "surfaces.py"}
+    assert not names & {"cli.py", "trace_ray.py", "stress.py"}
 
 
 def test_camera_of_one_pixel(script):

@@ -297,7 +297,20 @@ def _verify(args: argparse.Namespace) -> int:
             f"{scene.name}: {verdict.hit_bits} bits differ in the hits, {verdict.image_bits} in the images; "
             f"pictures: {out}/golden, {out}/rtl, {out}/{scene.name}-difference.png"
         )
+        if verdict.differing().any():
+            print(f"{scene.name}: {_replay(verdict, scene, args)}")
     return int(any(v.hit_bits or v.image_bits for v in verdicts.values()))
+
+
+def _replay(verdict: "Verdict", scene: Scene, args: argparse.Namespace) -> str:
+    """The first pixel that differs, with the command that follows its ray through both."""
+    y, x = divmod(int(verdict.differing().argmax()), scene.camera.width)
+    options = [f"--size {args.size[0]}x{args.size[1]}"] if args.size else []
+    options += [f"--n1 {args.n1}"] * (args.n1 != 3) + [f"--rule {args.rule}"] * (args.rule != "certified")
+    more = f' ARGS="{" ".join(options)}"' if options else ""
+    return (
+        f"the first pixel that differs is {x},{y}; step by step: make trace-ray SCENE={scene.path} PIXEL={x},{y}{more}"
+    )
 
 
 def _export(args: argparse.Namespace) -> int:

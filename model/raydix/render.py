@@ -56,6 +56,11 @@ class Verdict:
     hit_bits: int
     image_bits: int
 
+    def differing(self) -> np.ndarray:
+        """Where the finished frames differ: bool (H, W)."""
+        a, b = self.golden, self.rtl
+        return (a.rgb != b.rgb).any(axis=2) | (a.t != b.t) | (a.surface != b.surface) | (a.depth != b.depth)
+
 
 def _image_bits(a: Frame, b: Frame) -> int:
     total = 0
@@ -81,8 +86,7 @@ def verify(scene: Scene, config: Config, threads: int = 1, progress=None) -> Ver
 def write_verdict(verdict: Verdict, out: Path, name: str) -> list[Path]:
     """Write both outputs (``out``/golden, ``out``/rtl) and the difference picture: black where they are equal."""
     a, b = verdict.golden, verdict.rtl
-    differs = (a.rgb != b.rgb).any(axis=2) | (a.t != b.t) | (a.surface != b.surface) | (a.depth != b.depth)
     picture = np.zeros_like(a.rgb)
-    picture[differs] = (255, 0, 0)
+    picture[verdict.differing()] = (255, 0, 0)
     writers = frame_writers(a, out / "golden", name) | frame_writers(b, out / "rtl", name)
     return write_files(writers | {out / f"{name}-difference.png": png_writer(picture)})

