@@ -80,10 +80,7 @@ stress: $(READY) ## 10^7 difficult rays in named categories against exact roots,
 search: $(READY) ## evolutionary search for the largest error and the most steps (ARGS=)
 	@$(BIN)/python scripts/search.py $(ARGS)
 
-exact-types: $(READY) ## both rules and every width on random chords through each algebraic type of surface (ARGS=)
-	@$(BIN)/python scripts/every_type.py $(ARGS)
-
-spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
+exact-spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
 	@$(BIN)/python scripts/exact_spirals.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)

@@ -16,6 +16,7 @@ each scene (PNG, SVG) to build/bench. Exit status 0; 1: a ratio is lost (--check
 import argparse
 import csv
 import json
+import re
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -25,7 +26,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 from benchmarks.clocks import COLUMNS as CLOCKS
-from benchmarks.clocks import clocks
+from benchmarks.clocks import clocks, placed
 from benchmarks.guard import lost
 from benchmarks.plot import plot
 from benchmarks.rows import RAYDIX, Row, measurable, measure
@@ -70,32 +71,64 @@ def publish(rows: Sequence[Row], clock_rows) -> None:
     BASELINE.write_text(json.dumps([asdict(row) for row in rows]) + "\n")
 
 
+def size(text: str) -> tuple[int, int]:
+    """WIDTHxHEIGHT."""
+    match = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: WIDTHxHEIGHT, for example 320x240")
+    return int(match[1]), int(match[2])
+
+
 def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="*", type=Path, help=f"scene files (default: {', '.join(CHOSEN)})")
     parser.add_argument("--full", action="store_true", help="every scene with one surface")
-    parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(None, None))
+    parser.add_argument("--size", type=size, default=(None, None), metavar="WxH", help="instead of the scene's")
     parser.add_argument("--repeats", type=int, default=7, help="turns (default: 7)")
-    parser.add_argument("--rtl", action="store_true", help="clocks of the processor, too")
+    parser.add_argument("--rtl", action="store_true", help="clocks of the engines, too")
     parser.add_argument("--out", type=Path, default=OUT, help="folder (default: build/bench)")
     parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md, its pictures and the baseline")
     parser.add_argument("--check", action="store_true", help="compare with the baseline")
     options = parser.parse_args(arguments)
     if options.repeats < 1:
         parser.error("--repeats: found less than 1; allowed: 1 or more")
+    if options.write and (options.scene or options.full or options.check or options.size != (None, None)):
+        parser.error("--write: found with other scenes, another size or --check; allowed: as the page has it")
     return options
+
+
+def scenes_of(options) -> list:
+    """The scenes to be measured. Raises ValueError where one cannot be, SceneError where one is wrong."""
+    paths = options.scene or (sorted(SCENES.glob("*.toml")) if options.full else CHOSEN_PATHS)
+    scenes = [load_scene(path, *options.size) for path in paths]
+    if options.full:
+        return [scene for scene in scenes if measurable(scene)]
+    for scene in scenes:
+        if not measurable(scene):
+            raise ValueError(f"{scene.path}: found another scene; allowed: one picture of one opaque surface")
+    return scenes
+
+
+def baseline() -> list[Row]:
+    """The rows that were kept. Raises ValueError where there are none, or of an older form."""
+    try:
+        return [Row(**row) for row in json.loads(BASELINE.read_text())]
+    except (OSError, TypeError, ValueError):
+        raise ValueError(
+            f"{BASELINE}: found no baseline of this form; allowed: one of make bench ARGS=--write"
+        ) from None
 
 
 def main(arguments=None) -> int:
     """Measure, print, write; returns the exit status."""
     options = parse(arguments)
+    rows, clock_rows, missing = [], [], []
     try:
-        paths = options.scene or (sorted(SCENES.glob("*.toml")) if options.full else CHOSEN_PATHS)
-        scenes = [load_scene(path, *options.size) for path in paths]
-        if options.full:
-            scenes = [scene for scene in scenes if measurable(scene)]
-        rows, clock_rows, missing = [], [], []
+        scenes = scenes_of(options)
+        before = baseline() if options.check else []
+        if options.rtl:
+            placed()
         with Progress(console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task("", total=None)
             for scene in scenes:
@@ -104,20 +137,23 @@ def main(arguments=None) -> int:
                 if options.rtl:
                     bar.update(task, description=f"{scene.name}: RTL")
                     clock_rows += clocks(scene)
-        save(rows, clock_rows, options.out)
+                save(rows, clock_rows, options.out)
+        if options.write:
+            publish(rows, clock_rows)
     except (SceneError, ConfigError, RtlError, RuntimeError, ValueError, OSError) as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print(f"benchmark: interrupted; scenes that were finished are in {options.out}", file=sys.stderr)
+        return 130
     for text in dict.fromkeys(missing):
         print(f"benchmark: left out: {text}", file=sys.stderr)
     show_table("Run time against error", TABLE, [cells(row) for row in rows], LEFT, 200)
     show_table("Faster than the certified rule at no larger error", BEATEN, beaten(rows), LEFT, 200)
     if clock_rows:
-        show_table("The engines, at the clock that they were placed at", CLOCKS, clock_rows, LEFT[:1], 200)
-    if options.write:
-        publish(rows, clock_rows)
+        show_table("The engines, at the clock that they were placed at", CLOCKS, clock_rows, CLOCKS[:2], 200)
     if options.check:
-        complaints = lost(rows, json.loads(BASELINE.read_text()))
+        complaints = lost(rows, before)
         print("\n".join(complaints) or "no ratio is lost")
         return int(bool(complaints))
     return 0

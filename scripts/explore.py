@@ -33,7 +33,6 @@ from exploration.pareto import FRONTS, Point, front, point_of, recommended
 from exploration.plot import plot
 from raydix.blocks import show_table, write_table
 from raydix.config import ConfigError
-from raydix.rtl import RtlError
 from synth import SynthError
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -74,8 +73,12 @@ def executor(scheduler: str | None, jobs: int) -> Iterator[Executor]:
         return
     from distributed import Client  # takes a second to import
 
-    with Client(scheduler, timeout="10s") as client, client.get_executor(pure=False) as pool:
-        yield pool
+    with Client(scheduler, timeout="10s") as client:
+        pool = client.get_executor(pure=False)
+        try:
+            yield pool
+        finally:
+            pool.shutdown(wait=False)  # what is not finished is called off
 
 
 def keep(path: Path, value) -> None:
@@ -86,11 +89,12 @@ def keep(path: Path, value) -> None:
     os.replace(part, path)
 
 
-def sweep(designs: list[Design], options) -> dict[Design, dict]:
-    """Results of all designs, in their order; what is kept is not measured. Raises the first failure."""
+def sweep(designs: list[Design], options) -> tuple[dict[Design, dict], list[str]]:
+    """Results of the designs, in their order, and what failed; what is kept is not measured."""
     names = {design: key(design, options.pnr) for design in designs}
     kept = {design: options.out / f"{name}.json" for design, name in names.items()}
     missing = [design for design in designs if not kept[design].exists()]
+    failed = []
     columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bar:
         task = bar.add_task("design points", total=len(designs), completed=len(designs) - len(missing))
@@ -101,10 +105,10 @@ def sweep(designs: list[Design], options) -> dict[Design, dict]:
                     design = futures[future]
                     try:
                         keep(kept[design], future.result())
-                    except (SynthError, RtlError, RuntimeError) as error:
-                        raise RuntimeError(f"{design.family} {design}: {error}") from None
+                    except Exception as error:  # whatever a tool, a worker or its cluster raises
+                        failed.append(f"{design.family} {design}: {error or type(error).__name__}")
                     bar.update(task, advance=1, description=f"{design.family} {design}")
-    return {design: json.loads(path.read_text()) for design, path in kept.items()}
+    return {design: json.loads(path.read_text()) for design, path in kept.items() if path.exists()}, failed
 
 
 def placed(results: dict[Design, dict]) -> list[Point]:
@@ -193,13 +197,13 @@ def main(arguments=None) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     designs = [d for d in all_designs() if not options.family or d.family in options.family][: options.limit]
     try:
-        results = sweep(designs, options)
+        results, failed = sweep(designs, options)
         points = placed(results)
         save(results, points, options.out)
         families = list(dict.fromkeys(design.family for design in designs))
-        if options.write:
+        if options.write and not failed:
             publish(results, points, families)
-    except (ConfigError, RuntimeError, ValueError, OSError) as error:
+    except (ConfigError, SynthError, RuntimeError, ValueError, OSError) as error:
         print(f"explore: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
@@ -211,7 +215,9 @@ def main(arguments=None) -> int:
     goals = [row for family in families for row in goals_of([p for p in points if p.family == family], family)]
     show_table("What to take", GOALS, goals, GOALS[:3], 160)
     print(f"{len(results)} design points, {len(points)} of them placed")
-    return 0
+    for text in failed:
+        print(f"explore: {text}", file=sys.stderr)
+    return 2 if failed else 0
 
 
 if __name__ == "__main__":

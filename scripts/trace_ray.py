@@ -112,6 +112,7 @@ def parse(arguments):
     parser.add_argument("--surface", type=int, metavar="I", help="only this surface")
     parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
     parser.add_argument("--n1", type=int, default=3, help="digits fixed per step (default: 3)")
+    parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(None, None))
     parser.add_argument("--no-rtl", dest="rtl", action="store_false", help="the golden model only")
     parser.add_argument("--out", type=Path, default=OUT, metavar="DIR", help="folder (default: build/trace)")
@@ -138,7 +139,8 @@ def main(arguments=None) -> int:
     differ = 0
     try:
         scene = load_scene(args.scene, *args.size)
-        config = Config(n1=args.n1, steps=24 // args.n1, units=1, rules=args.rule, rule=args.rule, **families(scene))
+        steps = args.steps or 24 // max(1, args.n1)
+        config = Config(n1=args.n1, steps=steps, units=1, rules=args.rule, rule=args.rule, **families(scene))
         compiled = compile_scene(scene, config)
         args.out.mkdir(parents=True, exist_ok=True)
         for surface in chosen(compiled, args):

@@ -71,6 +71,7 @@ def test_errors_of_depths(script):
     inf = np.inf
     found = script.depth_errors(np.array([[1.0, 2.5, inf, 3.0]]), np.array([[1.0, 2.0, 4.0, inf]]))
     assert found["silhouette"] == 2 and found["max"] == 0.5 and found["rms"] == pytest.approx(0.5 / 2**0.5)
+    assert found["p999"] == pytest.approx(0.5, abs=1e-3)
     none = script.depth_errors(np.full((1, 2), inf), np.full((1, 2), inf))
     assert none["silhouette"] == 0 and np.isnan(none["max"])
 
@@ -82,7 +83,7 @@ def row(script, method, variant, seconds, ratio, p999=1e-6, silhouette=0):
 
 
 def test_who_is_faster_at_no_larger_error(script):
-    """An alternative counts if it is faster than every certified setting as good as it, or none is as good."""
+    """An alternative counts if it is faster than every certified setting as good as it, or than the reference."""
     own = [
         row(script, script.RAYDIX, "certified, n1 3, K 8", [2.0] * 3, 1.0, p999=1e-7),
         row(script, script.RAYDIX, "certified, n1 3, K 4", [1.0] * 3, 0.5, p999=1e-4),
@@ -92,7 +93,8 @@ def test_who_is_faster_at_no_larger_error(script):
         row(script, "slow", "", [2.5] * 3, 1.25, p999=1e-6),
         row(script, "quick", "", [1.5] * 3, 0.75, p999=1e-6),
         row(script, "coarse", "", [1.5] * 3, 0.75, p999=1e-3),
-        row(script, "exact", "", [9.0] * 3, 4.5, p999=1e-12),
+        row(script, "exact", "", [1.9] * 3, 0.95, p999=1e-12),
+        row(script, "exact and slow", "", [9.0] * 3, 4.5, p999=1e-12),
     ]
     found = script.beaten(own + others)
     assert [(r[1], r[3], r[4]) for r in found] == [
@@ -101,11 +103,11 @@ def test_who_is_faster_at_no_larger_error(script):
     ]
 
 
-@pytest.mark.parametrize("slower, bad", [(1.05, False), (1.3, True)])
+@pytest.mark.parametrize("slower, bad", [(0.8, False), (1.09, False), (1.11, True), (1.3, True)])
 def test_guard(script, slower, bad):
-    """The golden model slower by a twentieth passes, by three tenths it does not, however fast the machine is.
+    """Without noise the golden model slower by a tenth is the limit, however fast the machine is.
 
-    Programs of others do not count.
+    Programs of others do not count; a scene or a size that the baseline has not is told.
     """
 
     def rows(factor, machine):
@@ -115,7 +117,12 @@ def test_guard(script, slower, bad):
     before = json.loads(json.dumps([asdict(r) for r in rows(1.0, 1.0)]))
     program = row(script, "program", "", [1e-3] * 3, 1e-3)
     program.program = True
+    before = [script.Row(**r) for r in before]
     assert bool(script.lost([*rows(slower, 5.0), program], before)) == bad
+    others = rows(1.0, 1.0)
+    for r in others:
+        r.pixels = 99
+    assert "nothing to compare with" in script.lost(others, before)[0]
 
 
 def test_command(script, tmp_path, capsys):
@@ -127,19 +134,74 @@ def test_command(script, tmp_path, capsys):
     rows = json.loads((out / "benchmarks.json").read_text())
     assert {r["method"] for r in rows} >= {script.RAYDIX, "closed form", "Bézier clipping", "sphere tracing"}
     assert all(r["psnr"] is None or r["psnr"] > 20 for r in rows if r["method"] == "closed form")
-    assert all(len(r["seconds"]) == 2 and min(r["seconds"]) > 0 and r["ratio"] > 0 for r in rows)
+    reference = next(r for r in rows if r["variant"] == script.REFERENCE)
+    for r in rows:
+        turns = [a / b for a, b in zip(r["seconds"], reference["seconds"], strict=True)]
+        assert len(turns) == 2 and r["ratio"] == pytest.approx(np.median(turns))
+        assert r["program"] or min(r["seconds"]) > 0
     assert "certified, n1 4, K 6" in said.out and "Bézier clipping" in said.out
     assert len((out / "benchmarks.csv").read_text().splitlines()) == len(rows) + 1
     assert (out / "sphere.png").stat().st_size > 10_000 and "<svg" in (out / "sphere.svg").read_text()
 
 
-@pytest.mark.parametrize("scene, words", [("gallery", "allowed: one"), ("nowhere", "nowhere.toml")])
+@pytest.mark.parametrize("scene, words", [("gallery", "allowed: one picture of one"), ("nowhere", "nowhere.toml")])
 def test_bad_input(script, tmp_path, capsys, scene, words):
     """Several surfaces, or no file: status 2, one line that says what is allowed, nothing written."""
     out = tmp_path / "bench"
     assert script.main([str(SCENES / f"{scene}.toml"), "--out", str(out)]) == 2
     said = capsys.readouterr().err
     assert words in said and "Traceback" not in said and not out.exists()
+
+
+def test_transparent_surface_is_refused(script, tmp_path, capsys):
+    """Its picture is not that of its nearest hit: status 2."""
+    text = (SCENES / "sphere.toml").read_text().replace('type = "sphere"', 'type = "sphere"\nopacity = 0.5')
+    (tmp_path / "clear.toml").write_text(text)
+    assert script.main([str(tmp_path / "clear.toml"), "--out", str(tmp_path / "bench")]) == 2
+    assert "one opaque surface" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (["--size", "320"], "found '320'; allowed: WIDTHxHEIGHT"),
+        (["--size", "320x240x3"], "allowed: WIDTHxHEIGHT"),
+        (["--repeats", "0"], "allowed: 1 or more"),
+        (["--write", "--check"], "allowed: as the page has it"),
+        (["torus.toml", "--write"], "allowed: as the page has it"),
+    ],
+)
+def test_bad_arguments(script, capsys, arguments, words):
+    """Status 2, what was found and what is allowed."""
+    with pytest.raises(SystemExit) as ended:
+        script.main(arguments)
+    assert ended.value.code == 2 and words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option, name", [("--rtl", "PLACED"), ("--check", "BASELINE")])
+def test_missing_files_are_told_at_once(script, monkeypatch, tmp_path, capsys, option, name):
+    """Without what an option needs: status 2 and a line before anything is measured."""
+    monkeypatch.setattr(sys.modules["benchmarks.clocks" if option == "--rtl" else "benchmark"], name, tmp_path / "none")
+    monkeypatch.setattr(sys.modules["benchmark"], "measure", None)
+    assert script.main([str(SCENES / "sphere.toml"), option, "--out", str(tmp_path)]) == 2
+    assert "allowed: " in capsys.readouterr().err
+
+
+def test_helix_of_a_wide_pitch(script, tmp_path):
+    """POV-Ray's isosurface loses nothing where rays pass near the axis, where the helix' indicator is steep."""
+    lines = ['type = "spiral"', "R = 0.6", "r = 0.1", "pitch = 2.0", "turns = 1.0"]
+    text = (SCENES / "spiral.toml").read_text()
+    head = text[: text.index("[[surface]]")]
+    (tmp_path / "wide.toml").write_text(head + "\n".join(["[[surface]]", *lines, "color = [1.0, 1.0, 1.0]", ""]))
+    scene = load_scene(tmp_path / "wide.toml", 160, 120)
+    problem, ideal = script.problem_of(scene), ideal_frame(scene).depth
+    programs, missing = script.programs_for(problem)
+    by_name = {program.name: program for program in programs}
+    if "POV-Ray, isosurface" not in by_name:
+        pytest.skip("; ".join(missing))
+    _, depth_of = by_name["POV-Ray, isosurface"].render(problem, 1e-5)
+    found = script.depth_errors(depth_of(), ideal)
+    assert np.isfinite(ideal).sum() > 500 and found["silhouette"] == 0 and found["rms"] < 2e-5
 
 
 def test_scenes_of_the_full_run(script):
@@ -195,11 +257,16 @@ def test_programs_find_the_surface(script, name):
         pytest.skip("; ".join(missing))
     for program in programs:
         value = min(program.values[-1], 1e6)
-        seconds, depth = program.render(problem, value)
+        seconds, depth_of = program.render(problem, value)
+        depth = depth_of()
         found = script.depth_errors(depth, ideal)
-        coarse = "cylinders" in program.name  # has pixels where another turn is seen
-        allowed = 1e-1 if coarse else 1e-3 if program.name == "Embree" else 2e-5
-        assert seconds > 0 and found["rms"] <= allowed, f"{program.name}: {found}"
+        middle = np.nanmedian(np.abs(np.where(np.isfinite(depth), depth, np.nan) - ideal))
+        if "cylinders" in program.name:  # in some pixels another turn is seen
+            assert middle < 5e-4, f"{program.name}: {middle}"
+        else:
+            allowed = 1e-3 if program.name == "Embree" else 2e-5
+            assert found["rms"] <= allowed, f"{program.name}: {found}"
+        assert seconds >= 0
         assert found["silhouette"] <= SILHOUETTE, f"{program.name}: {found}"
 
 

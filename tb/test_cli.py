@@ -288,7 +288,7 @@ def test_verify(tmp_path, monkeypatch, capsys):
 
 
 def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
-    """One bit of one hit changed on its way from the RTL: exit status 1, and a red pixel."""
+    """One bit of one hit changed on its way from the RTL: exit status 1, a red pixel, the command to follow its ray."""
     from raydix import render
 
     honest = render.run_frames
@@ -302,9 +302,11 @@ def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     sphere = str(ROOT / "scenes" / "sphere.toml")
     options = ["--size", "24x18", "--units", "1", "--steps", "2", "--out", str(tmp_path)]
     assert main(["verify", sphere, *options]) == 1
-    assert "sphere: 1 bits differ in the hits" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "sphere: 1 bits differ in the hits" in said
     picture = image.read_image(tmp_path / "sphere-difference.png")
-    assert (picture.reshape(-1, 3) == (255, 0, 0)).all(axis=1).sum() == 1
+    ((y, x),) = np.argwhere((picture == (255, 0, 0)).all(axis=2)).tolist()
+    assert f'make trace-ray SCENE={sphere} PIXEL={x},{y} ARGS="--size 24x18 --steps 2"' in said
 
 
 def test_malformed_options(tmp_path):

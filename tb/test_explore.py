@@ -66,6 +66,14 @@ def test_designs(script):
     assert all(len(swept[name]) > 1 for name in ("family", "steps", "width", "units", "rings", "lanes"))
 
 
+def test_figures_of_a_result(script):
+    """100 MHz, ten rays in twenty clocks, five clocks for one, 2,000 LUT4."""
+    figures = {"lut4": 2000, "ff": 7, "dsp": 3, "bram": 1, "rays": 10, "cycles": 20, "latency": 5, "fmax": 100.0}
+    p = script.point_of("name", {"design": {"family": "quadric"}, "p999": 1e-7, "silhouette": 2, **figures})
+    assert (p.family, p.lut4, p.ff, p.dsp, p.bram, p.error, p.silhouette) == ("quadric", 2000, 7, 3, 1, 1e-7, 2)
+    assert p.rate == pytest.approx(50) and p.per_klut == pytest.approx(25) and p.latency == pytest.approx(50)
+
+
 def made(script, name, lut4, rate, latency, error=1e-7, silhouette=0):
     """A placed design with chosen figures."""
     return script.Point(name, "quadric", lut4, 0, 0, 0, 100.0, rate, 1e3 * rate / lut4, latency, error, silhouette)
@@ -108,17 +116,17 @@ def test_two_runs_measure_once(explore, tmp_path, capsys):
 
 
 def test_resumes_after_a_failure(explore, tmp_path, capsys):
-    """A point that fails: status 2 with its name; what was measured before it is kept and not measured again."""
+    """A point that fails: the others are measured and kept, status 2 with its name; the next run measures it alone."""
     explore.failing.add(3)
     arguments = ["quadric", "--limit", "4", "--jobs", "1", "--out", str(tmp_path)]
     assert explore.main(arguments) == 2
     said = capsys.readouterr()
     assert "quadric n1 2 K 12" in said.err and "made to fail" in said.err and "Traceback" not in said.err
     explore.failing.clear()
-    before = explore.asked[:2]
+    failed = explore.asked[2]
     explore.asked.clear()
     assert explore.main(arguments) == 0
-    assert len(explore.asked) == 2 and not [fields for fields in explore.asked if fields in before]
+    assert explore.asked == [failed]
 
 
 def test_on_a_cluster(explore, tmp_path, capsys):
@@ -166,8 +174,21 @@ def test_other_files_are_refused(script):
         script.measure(script.Design("quadric").as_dict(), "another key", False)
 
 
-def test_key_has_what_a_result_depends_on(script):
-    """The golden model's modules and what they import, not the tools beside it."""
+def test_key_has_what_a_result_depends_on(script, monkeypatch, tmp_path):
+    """Design, device, versions, content of any file; of the golden model what is imported, not the tools beside it."""
+    measure = sys.modules["exploration.measure"]
+    design, extra = script.Design("quadric"), tmp_path / "rdx_extra.sv"
+    extra.write_text("one")
+    real = measure.parts
+    monkeypatch.setattr(measure, "parts", lambda top: (real(top)[0] + [extra], real(top)[1]))
+    keys = [script.key(design, True), script.key(design, False), script.key(script.Design("quadric", 1, 24), True)]
+    extra.write_text("two")
+    keys.append(script.key(design, True))
+    monkeypatch.setattr(measure.synth, "DEVICE", ["--25k"])
+    keys.append(script.key(design, True))
+    monkeypatch.setattr(measure.synth, "package", lambda name: "another version")
+    keys.append(script.key(design, True))
+    assert len(set(keys)) == len(keys)
     names = {path.name for path in script.modules("compile", "golden", "oracle", "rtl", "scene", "shade")}
     assert names >= {"select.py", "halve.py", "normalize.py", "formats.py", "surfaces.py"}
     assert not names & {"cli.py", "trace_ray.py", "stress.py"}

@@ -306,7 +306,11 @@ def _replay(verdict: "Verdict", scene: Scene, args: argparse.Namespace) -> str:
     """The first pixel that differs, with the command that follows its ray through both."""
     y, x = divmod(int(verdict.differing().argmax()), scene.camera.width)
     options = [f"--size {args.size[0]}x{args.size[1]}"] if args.size else []
-    options += [f"--n1 {args.n1}"] * (args.n1 != 3) + [f"--rule {args.rule}"] * (args.rule != "certified")
+    options += (
+        [f"--steps {args.steps}"] * bool(args.steps)
+        + [f"--n1 {args.n1}"] * (args.n1 != 3)
+        + [f"--rule {args.rule}"] * (args.rule != "certified")
+    )
     more = f' ARGS="{" ".join(options)}"' if options else ""
     return (
         f"the first pixel that differs is {x},{y}; step by step: make trace-ray SCENE={scene.path} PIXEL={x},{y}{more}"

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .frame import Problem
+from .frame import Problem, Rendered
 
 FAR = 1e20  # and beyond: no hit
 KINDS = ("sphere", "torus", "hyperboloid_two_sheet", "spiral")
@@ -56,7 +56,7 @@ def tube(ring: float, radius: float, pitch: float, turns: float, around: int, al
 
 def sheets(quadric: np.ndarray, low, high, count: int) -> np.ndarray:
     """Both sheets of x²/a² + y²/b² − z²/c² = −1, a fan of rings up to the box's faces in z."""
-    a, b, c = 1 / np.sqrt(quadric[:2]).item(0), 1 / np.sqrt(quadric[1]), 1 / np.sqrt(-quadric[2])
+    a, b, c = 1 / np.sqrt([quadric[0], quadric[1], -quadric[2]])
     parts = []
     for side, end in ((-1, low[2]), (1, high[2])):
         reach = np.arccosh(max(1.0, side * end / c))
@@ -100,11 +100,11 @@ def prepare(problem: Frozen, triangles: float):
     return scene, origins, rays
 
 
-def render(problem: Problem, triangles: float) -> tuple[float, np.ndarray]:
-    """Seconds of intersecting, and depth (height, width), inf where nothing is hit."""
+def render(problem: Problem, triangles: float) -> Rendered:
+    """Seconds of intersecting, and how to get the depth."""
     scene, origins, rays = prepare(Frozen(problem), triangles)
     begun = time.perf_counter()
     found = scene.run(origins, rays, query="DISTANCE")
     seconds = time.perf_counter() - begun
-    depth = np.where(found < FAR, found.astype(np.float64), np.inf)
-    return seconds, depth.reshape(problem.height, problem.width)
+    shape = problem.height, problem.width
+    return seconds, lambda: np.where(found < FAR, found.astype(np.float64), np.inf).reshape(shape)

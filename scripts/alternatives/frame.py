@@ -15,6 +15,9 @@ NOTHING = -1.0  # what a solver returns where there is no root
 SLACK = 1e-9  # by which a box about a closed surface is wider, in half-extents
 
 
+Rendered = tuple[float, Callable[[], np.ndarray]]  # seconds; how to get the depth (height, width), inf = no hit
+
+
 class Problem(NamedTuple):
     """A surface and the rays of a camera, in the surface's local coordinates.
 

@@ -2,7 +2,8 @@
 """The same rays in POV-Ray: its own shapes, isosurfaces, and a helix of cylinders; depth is read from the colours.
 
 The scene is in the surface's local coordinates. A pixel's colour is its depth, 16 bits in red and what a 4096th is
-divided into in green; blue is the background. Time is POV-Ray's own trace time on one thread, without parsing.
+divided into in green; blue is the background. Time is POV-Ray's own trace time on one thread, without parsing, of
+another run with one plain colour.
 """
 
 import re
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO as oiio
 
-from .frame import Problem
+from .frame import Problem, Rendered
 
 FINE = 4096  # parts of the range of depths that green divides
 CYLINDERS = 256  # of a turn of a helix
@@ -29,6 +30,12 @@ SCENE = """
 global_settings {{ assumed_gamma 1 ambient_light 1 }}
 background {{ rgb <0, 0, 1> }}
 camera {{ perspective location {eye} direction {forward} right {right} up {up} }}
+{functions}
+object {{ {shape} {texture} }}
+"""
+PLAIN = "pigment { rgb <1, 0, 0> } finish { ambient 1 diffuse 0 }"
+CODED = "texture { Coded }"
+CODE = """
 #declare Depth = function(x, y, z) {{ {depth} }}
 #declare Fine = function(x, y, z) {{ {fine}*Depth(x, y, z) }}
 #declare Coded = texture {{
@@ -40,8 +47,6 @@ camera {{ perspective location {eye} direction {forward} right {right} up {up} }
   }}
   finish {{ ambient 1 diffuse 0 }}
 }}
-{functions}
-object {{ {shape} texture {{ Coded }} }}
 """
 
 
@@ -127,9 +132,7 @@ def formula(problem: Problem) -> tuple[str, str, float]:
         known = [(c, p) for p, c in terms(problem).items() if c]
         text = " + ".join("*".join([f"({c:.17g})", *"x" * p[0], *"y" * p[1], *"z" * p[2]]) for c, p in known)
         return "", text, steepest(problem)
-    ring, tube, pitch, turns, more_ring, more_tube = problem.sizes
-    if more_ring or more_tube or turns < 1:
-        raise ValueError("only helices of a turn at least")
+    ring, tube, pitch, turns = problem.sizes[:4]
     ends = [(ring * np.cos(2 * pi * u), ring * np.sin(2 * pi * u), pitch * u) for u in (0.0, turns)]
     balls = [f"sqrt(pow(x - ({a:.17g}), 2) + pow(y - ({b:.17g}), 2) + pow(z - ({c:.17g}), 2))" for a, b, c in ends]
     functions = f"""
@@ -141,8 +144,10 @@ def formula(problem: Problem) -> tuple[str, str, float]:
 #declare Tube = function(x, y, z) {{
   sqrt(pow(sqrt(x*x + y*y) - {ring:.17g}, 2) + pow(z - {pitch:.17g}*(Whole(x, y, z) + Turn(x, y, z)), 2))
 }}"""
-    bound = hypot(1.0, pitch / (2 * pi * (ring - tube)))
-    return functions, f"min(Tube(x, y, z), min({balls[0]}, {balls[1]})) - {tube:.17g}", bound
+    # near the axis the angle runs away; half of the free space about it is said to be that far from the tube, no more
+    free = (ring - tube) / 2
+    text = f"min(Tube(x, y, z), min({balls[0]}, {balls[1]})) - {tube:.17g}"
+    return functions, f"select(sqrt(x*x + y*y) - {free:.17g}, {free:.17g}, {text})", hypot(1.0, pitch / (2 * pi * free))
 
 
 def cylinders(problem: Problem) -> str:
@@ -165,23 +170,23 @@ def isosurface(problem: Problem, accuracy: float) -> tuple[str, str]:
     return functions, shape + f"max_gradient {bound:.17g} }}"
 
 
-def own_shape(problem: Problem, _) -> tuple[float, np.ndarray]:
-    """POV-Ray's own shape: seconds, depth."""
+def own_shape(problem: Problem, _) -> Rendered:
+    """POV-Ray's own shape."""
     return render(problem, "", native(problem, False))
 
 
-def own_shape_sturm(problem: Problem, _) -> tuple[float, np.ndarray]:
+def own_shape_sturm(problem: Problem, _) -> Rendered:
     """The same by Sturm's sequence."""
     return render(problem, "", native(problem, True))
 
 
-def helix_of_cylinders(problem: Problem, _) -> tuple[float, np.ndarray]:
-    """Cylinders and balls: seconds, depth."""
+def helix_of_cylinders(problem: Problem, _) -> Rendered:
+    """Cylinders and balls."""
     return render(problem, "", cylinders(problem))
 
 
-def by_isosurface(problem: Problem, accuracy: float) -> tuple[float, np.ndarray]:
-    """An isosurface: seconds, depth."""
+def by_isosurface(problem: Problem, accuracy: float) -> Rendered:
+    """An isosurface."""
     return render(problem, *isosurface(problem, accuracy))
 
 
@@ -190,19 +195,34 @@ def missing() -> str:
     return "" if shutil.which("povray") else "POV-Ray is not installed (Debian: apt-get install povray)"
 
 
-def render(problem: Problem, functions: str, shape: str) -> tuple[float, np.ndarray]:
-    """Seconds of tracing, and depth (height, width), inf where nothing is hit. Raises ValueError where it fails."""
+def render(problem: Problem, functions: str, shape: str) -> Rendered:
+    """Seconds of tracing, and how to get the depth. Raises ValueError where POV-Ray fails."""
     p = problem
+    view = dict(
+        eye=vector(p.eye), forward=vector(p.forward), right=vector(p.width * p.right), up=vector(p.height * p.up)
+    )
+    scene = dict(view, shape=shape)
+    seconds, _ = trace(p, SCENE.format(functions=functions, texture=PLAIN, **scene))
+    return seconds, lambda: depth_of(p, functions, scene)
+
+
+def depth_of(p: Problem, functions: str, scene: dict[str, str]) -> np.ndarray:
+    """Depth (height, width), inf where nothing is hit, from a run whose colours are the depth."""
     corners = np.array(np.meshgrid(*zip(p.low, p.high, strict=True))).reshape(3, -1).T
     scale = p.forward @ p.forward
     depths = (corners - p.eye) @ p.forward / scale
     near, span = depths.min(), np.ptp(depths)
     direction = p.forward / (scale * span)
     shares = [f"({c:.17g})*({axis} - ({e:.17g}))" for c, axis, e in zip(direction, "xyz", p.eye, strict=True)]
-    text = SCENE.format(
-        eye=vector(p.eye), forward=vector(p.forward), right=vector(p.width * p.right), up=vector(p.height * p.up),
-        depth=" + ".join([*shares, f"({-near / span:.17g})"]), fine=FINE, functions=functions, shape=shape,
-    )  # fmt: skip
+    code = CODE.format(depth=" + ".join([*shares, f"({-near / span:.17g})"]), fine=FINE)
+    _, colours = trace(p, SCENE.format(functions=code + functions, texture=CODED, **scene))
+    fine = colours[..., 1]
+    part = (np.rint(FINE * colours[..., 0] - fine) + fine) / FINE
+    return np.where(colours[..., 2] < 0.5, near + span * part, np.inf)
+
+
+def trace(p: Problem, text: str) -> tuple[float, np.ndarray]:
+    """Run POV-Ray: seconds, colours (height, width, 3), 0 to 1. Raises ValueError where it fails."""
     with tempfile.TemporaryDirectory() as folder:
         scene, picture = Path(folder, "scene.pov"), Path(folder, "scene.png")
         scene.write_text(text)
@@ -212,7 +232,4 @@ def render(problem: Problem, functions: str, shape: str) -> tuple[float, np.ndar
         spent = re.findall(r"Trace Time:.*\(([\d.]+) seconds\)", run.stderr)
         if run.returncode or not spent:
             raise ValueError(f"povray failed: {' '.join(run.stderr.splitlines()[-3:])}")
-        colours = oiio.ImageBuf(str(picture)).get_pixels(oiio.UINT16).astype(np.float64) / 65535
-    fine = colours[..., 1]
-    part = (np.rint(FINE * colours[..., 0] - fine) + fine) / FINE
-    return float(spent[-1]), np.where(colours[..., 2] < 0.5, near + span * part, np.inf)
+        return float(spent[-1]), oiio.ImageBuf(str(picture)).get_pixels(oiio.UINT16).astype(np.float64) / 65535

@@ -4,10 +4,8 @@
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-import numpy as np
-
 from . import embree, povray
-from .frame import Problem
+from .frame import Problem, Rendered
 
 
 class Program(NamedTuple):
@@ -15,7 +13,7 @@ class Program(NamedTuple):
 
     name    of it and of the way
     knob    what its values are, from coarse to fine
-    render  of a problem and a value: seconds, depth (height, width), inf where nothing is hit
+    render  of a problem and a value
     missing why it cannot be had, or nothing
     can     whether it can do a problem
     """
@@ -23,7 +21,7 @@ class Program(NamedTuple):
     name: str
     knob: str
     values: Sequence[float]
-    render: Callable[[Problem, float], tuple[float, np.ndarray]]
+    render: Callable[[Problem, float], Rendered]
     missing: Callable[[], str]
     can: Callable[[Problem], bool]
 

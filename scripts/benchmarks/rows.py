@@ -106,11 +106,16 @@ def alternative(scene: Scene, problem: Problem, render) -> Run:
 
 
 def program(scene: Scene, problem: Problem, render, value: float) -> Run:
-    """The same for a program that gives its seconds and the depth."""
+    """The same for a program that gives its seconds and a way to get the depth."""
 
     def run():
-        seconds, depth = render(problem, value)
-        return seconds, lambda: (depth, shaded(scene, depth))
+        seconds, depth_of = render(problem, value)
+
+        def picture():
+            depth = depth_of()
+            return depth, shaded(scene, depth)
+
+        return seconds, picture
 
     return run
 

