@@ -48,13 +48,15 @@ CHOSEN_PATHS = [SCENES / f"{name}.toml" for name in CHOSEN]
 def save(rows: Sequence[Row], clock_rows, out: Path) -> None:
     """JSON, CSV and a picture of each scene."""
     out.mkdir(parents=True, exist_ok=True)
+    if clock_rows:
+        (out / "clocks.json").write_text(json.dumps(clock_rows) + "\n")
+    if not rows:
+        return
     (out / "benchmarks.json").write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")
     with (out / "benchmarks.csv").open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(TABLE)
         writer.writerows(cells(row) for row in rows)
-    if clock_rows:
-        (out / "clocks.json").write_text(json.dumps(clock_rows) + "\n")
     for scene in dict.fromkeys(row.scene for row in rows):
         for kind in ("png", "svg"):
             plot([r for r in rows if r.scene == scene], RAYDIX, out / f"{scene}.{kind}")
@@ -62,10 +64,12 @@ def save(rows: Sequence[Row], clock_rows, out: Path) -> None:
 
 def publish(rows: Sequence[Row], clock_rows) -> None:
     """The page, its pictures, its baseline."""
-    write_table(PAGE, "times", TABLE, [cells(row) for row in rows])
-    write_table(PAGE, "beaten", BEATEN, beaten(rows))
     if clock_rows:
         write_table(PAGE, "clocks", CLOCKS, clock_rows)
+    if not rows:
+        return
+    write_table(PAGE, "times", TABLE, [cells(row) for row in rows])
+    write_table(PAGE, "beaten", BEATEN, beaten(rows))
     for scene in CHOSEN[:3]:
         plot([r for r in rows if r.scene == scene], RAYDIX, ROOT / "docs" / "images" / f"benchmark-{scene}.png")
     BASELINE.write_text(json.dumps([asdict(row) for row in rows]) + "\n")
@@ -87,6 +91,7 @@ def parse(arguments):
     parser.add_argument("--size", type=size, default=(None, None), metavar="WxH", help="instead of the scene's")
     parser.add_argument("--repeats", type=int, default=7, help="turns (default: 7)")
     parser.add_argument("--rtl", action="store_true", help="clocks of the engines, too")
+    parser.add_argument("--only-rtl", action="store_true", help="clocks of the engines, no times")
     parser.add_argument("--out", type=Path, default=OUT, help="folder (default: build/bench)")
     parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md, its pictures and the baseline")
     parser.add_argument("--check", action="store_true", help="compare with the baseline")
@@ -127,14 +132,15 @@ def main(arguments=None) -> int:
     try:
         scenes = scenes_of(options)
         before = baseline() if options.check else []
-        if options.rtl:
+        if options.rtl or options.only_rtl:
             placed()
         with Progress(console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task("", total=None)
             for scene in scenes:
-                some, absent = measure(scene, options.repeats, lambda text: bar.update(task, description=text))
-                rows, missing = rows + some, missing + absent
-                if options.rtl:
+                if not options.only_rtl:
+                    some, absent = measure(scene, options.repeats, lambda text: bar.update(task, description=text))
+                    rows, missing = rows + some, missing + absent
+                if options.rtl or options.only_rtl:
                     bar.update(task, description=f"{scene.name}: RTL")
                     clock_rows += clocks(scene)
                 save(rows, clock_rows, options.out)
@@ -148,8 +154,9 @@ def main(arguments=None) -> int:
         return 130
     for text in dict.fromkeys(missing):
         print(f"benchmark: left out: {text}", file=sys.stderr)
-    show_table("Run time against error", TABLE, [cells(row) for row in rows], LEFT, 200)
-    show_table("Faster than the certified rule at no larger error", BEATEN, beaten(rows), LEFT, 200)
+    if rows:
+        show_table("Run time against error", TABLE, [cells(row) for row in rows], LEFT, 200)
+        show_table("Faster than the certified rule at no larger error", BEATEN, beaten(rows), LEFT, 200)
     if clock_rows:
         show_table("The engines, at the clock that they were placed at", CLOCKS, clock_rows, CLOCKS[:2], 200)
     if options.check:

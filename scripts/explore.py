@@ -93,7 +93,7 @@ def sweep(designs: list[Design], options) -> tuple[dict[Design, dict], list[str]
     """Results of the designs, in their order, and what failed; what is kept is not measured."""
     names = {design: key(design, options.pnr) for design in designs}
     kept = {design: options.out / f"{name}.json" for design, name in names.items()}
-    missing = [design for design in designs if not kept[design].exists()]
+    missing = [] if options.kept else [design for design in designs if not kept[design].exists()]
     failed = []
     columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bar:
@@ -175,6 +175,7 @@ def parse(arguments):
     parser.add_argument("family", nargs="*", help=f"{', '.join(SCENE_OF)} (default: all)")
     parser.add_argument("--limit", type=int, help="only so many points")
     parser.add_argument("--no-pnr", dest="pnr", action="store_false", help="no place and route")
+    parser.add_argument("--kept", action="store_true", help="measure nothing: show what was measured so far")
     parser.add_argument("--jobs", type=int, default=2, help="points at a time on this machine (default: 2)")
     parser.add_argument("--scheduler", metavar="tcp://HOST:PORT", help="of a Dask cluster that measures them")
     parser.add_argument("--out", type=Path, default=BUILD, help="folder (default: build/explore)")

@@ -129,18 +129,18 @@ def test_localises_a_broken_design(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "arguments, words",
+    "name, arguments, words",
     [
-        (["--pixel", "64,0"], "allowed: 0,0 to 63,47"),
-        (["--pixel", "0,0"], "another pixel"),
-        (["--pixel", "38,18", "--surface", "3"], "surfaces there: 0"),
-        (["--pixel", "38,18", "--n1", "5"], "n1: found 5; allowed: 1 to 4"),
+        ("torus", ["--pixel", "64,0"], "allowed: 0,0 to 63,47"),
+        ("spiral", ["--pixel", "0,0"], "another pixel"),
+        ("torus", ["--pixel", "38,18", "--surface", "3"], "surfaces there: 0"),
+        ("torus", ["--pixel", "38,18", "--n1", "5"], "n1: found 5; allowed: 1 to 4"),
     ],
 )
-def test_refuses(script, tmp_path, capsys, arguments, words):
+def test_refuses(script, tmp_path, capsys, name, arguments, words):
     """A pixel or a parameter that cannot be: status 2, what was found and what is allowed, no traceback."""
     out = ["--size", "64x48", "--no-rtl", "--out", str(tmp_path)]
-    assert script.main([str(SCENES / "torus.toml"), *arguments, *out]) == 2
+    assert script.main([str(SCENES / f"{name}.toml"), *arguments, *out]) == 2
     said = capsys.readouterr().err
     assert words in said and "Traceback" not in said
 
