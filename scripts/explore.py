@@ -139,8 +139,10 @@ def rows_of(points: list[Point]) -> list[list[str]]:
 
 
 def goals_of(points: list[Point], family: str) -> list[list[str]]:
-    """What to take for which goal."""
-    found = []
+    """What to take for which goal; nothing where none is placed."""
+    found: list[list[str]] = []
+    if not points:
+        return found
     for goal, p in recommended(points).items():
         figures = [p.name, f"{p.lut4:,}", f"{p.rate:.1f}", f"{p.latency:,.0f}", f"{p.error:.1e}"] if p else ["none"]
         found.append([family, goal, *figures, *[""] * (5 - len(figures))])
@@ -212,9 +214,12 @@ def main(arguments=None) -> int:
         return 130
     for family in families:
         mine = [p for p in points if p.family == family]
+        if not mine:
+            continue
         show_table(f"{family}: engines, scene {SCENE_OF[family]}", COLUMNS, rows_of(mine), ("engine",), 200)
     goals = [row for family in families for row in goals_of([p for p in points if p.family == family], family)]
-    show_table("What to take", GOALS, goals, GOALS[:3], 160)
+    if goals:
+        show_table("What to take", GOALS, goals, GOALS[:3], 160)
     print(f"{len(results)} design points, {len(points)} of them placed")
     for text in failed:
         print(f"explore: {text}", file=sys.stderr)
