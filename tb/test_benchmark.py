@@ -125,9 +125,15 @@ def test_guard(script, slower, bad):
     assert "nothing to compare with" in script.lost(others, before)[0]
 
 
-def test_command(script, tmp_path, capsys):
-    """One scene, small: status 0, a row for every configuration and method, JSON, CSV and both pictures."""
-    out = tmp_path / "bench"
+def test_command(script, monkeypatch, tmp_path, capsys):
+    """One scene, small: status 0, a row for every configuration and method, JSON, CSV and both pictures.
+
+    Some configurations only: each compiles a kernel of its own.
+    """
+    out, every = tmp_path / "bench", script.configurations
+    some = (script.REFERENCE, "certified, n1 3, K 4", "certified, n1 4, K 6", "paper, n1 3, K 8")
+    chosen = lambda scene: {name: config for name, config in every(scene).items() if name in some}  # noqa: E731
+    monkeypatch.setattr(sys.modules["benchmarks.rows"], "configurations", chosen)
     arguments = [str(SCENES / "sphere.toml"), "--size", "32x24", "--repeats", "2", "--out", str(out)]
     assert script.main(arguments) == 0
     said = capsys.readouterr()
@@ -202,6 +208,15 @@ def test_helix_of_a_wide_pitch(script, tmp_path):
     _, depth_of = by_name["POV-Ray, isosurface"].render(problem, 1e-5)
     found = script.depth_errors(depth_of(), ideal)
     assert np.isfinite(ideal).sum() > 500 and found["silhouette"] == 0 and found["rms"] < 2e-5
+
+
+def test_configurations(script):
+    """n1 from 1 to 4 with 12 to 24 digits, both rules, and three widths where there are control points."""
+    found = script.configurations(load_scene(SCENES / "torus.toml", *SIZE))
+    assert {(c.n1, c.digits) for c in found.values() if c.rule == "certified"} >= {(1, 12), (2, 16), (3, 24), (4, 24)}
+    assert {c.n1 for c in found.values() if c.rule == "paper"} == {1, 2, 3, 4}
+    assert {c.width for c in found.values()} == {24, 28, 32, 36}
+    assert len(script.configurations(load_scene(SCENES / "spiral.toml", *SIZE))) == len(found) - 3
 
 
 def test_scenes_of_the_full_run(script):

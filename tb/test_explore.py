@@ -204,6 +204,22 @@ def test_camera_of_one_pixel(script):
     assert np.isfinite(ideal_frame(alone).depth).all()
 
 
+def test_page_has_what_was_measured(script):
+    """The page's tables are those of docs/exploration.json; no engine with all digits has a wrong silhouette pixel."""
+    kept = json.loads((ROOT / "docs" / "exploration.json").read_text())
+    results = {script.Design(**result["design"]): result for result in kept}
+    points = script.placed(results)
+    text = (ROOT / "docs" / "exploration.md").read_text()
+    families = dict.fromkeys(p.family for p in points)
+    for family in families:
+        for row in script.rows_of([p for p in points if p.family == family]):
+            assert f"| {' | '.join(row)} |" in text
+        for row in script.goals_of([p for p in points if p.family == family], family):
+            assert f"| {' | '.join(row)} |" in text
+    right = [r for d, r in results.items() if d.rules == "certified" and d.n1 * d.steps == 24 and d.width == 36]
+    assert len(right) >= 8 and all(r["silhouette"] == 0 for r in right)
+
+
 @pytest.mark.long
 def test_two_workers_measure(tmp_path):
     """Two worker processes with this checkout measure two design points, without place and route."""
