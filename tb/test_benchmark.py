@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run time against error: every alternative finds what the oracle finds; tables, files and the guard; bad input."""
 
-import importlib
 import json
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from raydix.oracle import ideal_frame
 from raydix.scene import load_scene
+from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "scenes"
@@ -23,13 +22,9 @@ SILHOUETTE = 3  # pixels that samples may get wrong
 @pytest.fixture(scope="module")
 def script():
     """scripts/benchmark.py and its neighbours, found as when it is run."""
-    sys.path.insert(0, str(ROOT / "scripts"))
     names = "alternatives", "picture_error", *(f"benchmarks.{n}" for n in ("rows", "tables", "guard", "clocks"))
-    try:
-        modules = [importlib.import_module(name) for name in (*names, "benchmark")]
-        yield SimpleNamespace(**{name: value for module in modules for name, value in vars(module).items()})
-    finally:
-        sys.path.remove(str(ROOT / "scripts"))
+    with scripts(*names, "benchmark") as modules:
+        yield modules
 
 
 def asked_for(method, value):

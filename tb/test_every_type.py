@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Both rules and every width on chords through each type: the figures of the page hold on other chords; bad input."""
 
-import importlib
-import sys
 from pathlib import Path
 
 import pytest
 
 from raydix.blocks import read_table
+from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -15,11 +14,8 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture(scope="module")
 def script():
     """scripts/every_type.py as a module."""
-    sys.path.insert(0, str(ROOT / "scripts"))
-    try:
-        yield importlib.import_module("every_type")
-    finally:
-        sys.path.remove(str(ROOT / "scripts"))
+    with scripts("every_type") as modules:
+        yield modules
 
 
 @pytest.mark.parametrize("name", ["sphere", "hyperboloid", "torus", "quartic"])

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The sweep of design points: its designs, fronts and goals, what is kept, the executors, and bad input."""
 
-import importlib
 import json
 import os
 import subprocess
@@ -19,6 +18,7 @@ from raydix.files import RTL
 from raydix.golden import trace_golden
 from raydix.oracle import ideal_frame
 from raydix.scene import load_scene
+from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
 SCRIPTS = ROOT / "scripts"
@@ -27,13 +27,8 @@ SCRIPTS = ROOT / "scripts"
 @pytest.fixture(scope="module")
 def script():
     """scripts/explore.py and its neighbours, found as when it is run."""
-    sys.path.insert(0, str(SCRIPTS))
-    names = (*(f"exploration.{n}" for n in ("designs", "measure", "pareto")), "explore")
-    try:
-        modules = [importlib.import_module(name) for name in names]
-        yield SimpleNamespace(**{name: value for module in modules for name, value in vars(module).items()})
-    finally:
-        sys.path.remove(str(SCRIPTS))
+    with scripts(*(f"exploration.{n}" for n in ("designs", "measure", "pareto")), "explore") as modules:
+        yield modules
 
 
 @pytest.fixture

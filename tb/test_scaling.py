@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """How time grows: the scenes that are measured, the tables, and bad input."""
 
-import importlib
 import sys
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import numpy as np
 import pytest
 
 from raydix.oracle import ideal_frame, ideal_hits
+from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -16,11 +16,8 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture(scope="module")
 def script():
     """scripts/scaling.py as a module."""
-    sys.path.insert(0, str(ROOT / "scripts"))
-    try:
-        yield importlib.import_module("scaling")
-    finally:
-        sys.path.remove(str(ROOT / "scripts"))
+    with scripts("scaling") as modules:
+        yield modules
 
 
 def test_spheres_beside_each_other(script, tmp_path):
@@ -54,13 +51,10 @@ def test_unneeded_parts(script, tmp_path):
 
 
 @pytest.mark.long
-def test_command(script, capsys):
+def test_command(script, monkeypatch, capsys):
     """Clocks of two kinds: depth complexity costs less than in proportion where the nearest comes first."""
-    script_counts, script.COUNTS = script.COUNTS, (1, 8)
-    try:
-        assert script.main(["depth", "--repeats", "1"]) == 0
-    finally:
-        script.COUNTS = script_counts
+    monkeypatch.setattr(sys.modules["scaling"], "COUNTS", (1, 8))
+    assert script.main(["depth", "--repeats", "1"]) == 0
     lines = [line.split("│") for line in capsys.readouterr().out.splitlines() if "nearest first" in line]
     clocks = [int(cells[5].replace(",", "")) for cells in lines]
     assert clocks[0] < clocks[1] < 8 * clocks[0]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """One ray followed: its steps end where the golden model's do, the RTL's are the same, a broken design is localised."""
 
-import importlib
 import os
 import shutil
 import subprocess
@@ -17,6 +16,7 @@ from raydix.fit import families
 from raydix.golden import trace_golden
 from raydix.scene import load_scene
 from raydix.trace_ray import follow, pixel_of
+from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "scenes"
@@ -26,11 +26,8 @@ SIZE = 64, 48
 @pytest.fixture(scope="module")
 def script():
     """scripts/trace_ray.py as a module."""
-    sys.path.insert(0, str(ROOT / "scripts"))
-    try:
-        yield importlib.import_module("trace_ray")
-    finally:
-        sys.path.remove(str(ROOT / "scripts"))
+    with scripts("trace_ray") as modules:
+        yield modules
 
 
 def frame_of(name, **choices):
