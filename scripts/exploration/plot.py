@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure as Picture
 
-from .pareto import FRONTS, Point, front
+from .pareto import ERROR, FRONTS, Point, front
 
 COLOURS = {"1": "#fdae6b", "2": "#f16913", "3": "#a63603", "4": "#5b1a02"}  # by n1
 
@@ -26,8 +26,10 @@ def plot(points: Sequence[Point], path: Path) -> None:
                 if some:
                     x, y = [across.of(p) for p in some], [up.of(p) for p in some]
                     axes.scatter(x, y, s=22, color=colour, label=f"n1 {n1}", zorder=2)
-            axes.set_xscale("log")
-            axes.set_yscale("log" if up.less else "linear")
+            if across is ERROR:
+                axes.set_xscale("log")
+                least, most = (f(across.of(p) for p in mine) for f in (min, max))
+                axes.set_xlim(least / 3, most * 3)
             axes.set_xlabel(across.title)
             axes.set_ylabel(up.title)
             axes.set_title(f"{family}: {name}", fontsize=9, loc="left")
