@@ -16,7 +16,6 @@ each scene (PNG, SVG) to build/bench. Exit status 0; 1: a ratio is lost (--check
 import argparse
 import csv
 import json
-import re
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -32,6 +31,7 @@ from benchmarks.plot import plot
 from benchmarks.rows import RAYDIX, Row, measurable, measure
 from benchmarks.tables import BEATEN, LEFT, TABLE, beaten, cells
 from raydix.blocks import show_table, write_table
+from raydix.cli import image_size
 from raydix.config import ConfigError
 from raydix.rtl import RtlError
 from raydix.scene import SceneError, load_scene
@@ -75,20 +75,12 @@ def publish(rows: Sequence[Row], clock_rows) -> None:
     BASELINE.write_text(json.dumps([asdict(row) for row in rows]) + "\n")
 
 
-def size(text: str) -> tuple[int, int]:
-    """WIDTHxHEIGHT."""
-    match = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
-    if not match:
-        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: WIDTHxHEIGHT, for example 320x240")
-    return int(match[1]), int(match[2])
-
-
 def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="*", type=Path, help=f"scene files (default: {', '.join(CHOSEN)})")
     parser.add_argument("--full", action="store_true", help="every scene with one surface")
-    parser.add_argument("--size", type=size, default=(None, None), metavar="WxH", help="instead of the scene's")
+    parser.add_argument("--size", type=image_size, default=(None, None), metavar="WxH", help="instead of the scene's")
     parser.add_argument("--repeats", type=int, default=7, help="turns (default: 7)")
     parser.add_argument("--rtl", action="store_true", help="clocks of the engines, too")
     parser.add_argument("--only-rtl", action="store_true", help="clocks of the engines, no times")

@@ -16,7 +16,6 @@ Writes explore.json, explore.csv and explore.png there, too. Exit status 0; 2: b
 import argparse
 import csv
 import json
-import os
 import signal
 import sys
 from collections.abc import Iterator
@@ -33,7 +32,7 @@ from exploration.pareto import FRONTS, Point, front, point_of, recommended
 from exploration.plot import plot
 from raydix.blocks import show_table, write_table
 from raydix.config import ConfigError
-from synth import SynthError
+from synth import SynthError, keep
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "explore"
@@ -81,14 +80,6 @@ def executor(scheduler: str | None, jobs: int) -> Iterator[Executor]:
             pool.shutdown(wait=False)  # what is not finished is called off
 
 
-def keep(path: Path, value) -> None:
-    """Write a result, complete or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(f".{os.getpid()}")
-    part.write_text(json.dumps(value, indent=1) + "\n")
-    os.replace(part, path)
-
-
 def sweep(designs: list[Design], options) -> tuple[dict[Design, dict], list[str]]:
     """Results of the designs, in their order, and what failed; what is kept is not measured."""
     names = {design: key(design, options.pnr) for design in designs}
@@ -104,6 +95,7 @@ def sweep(designs: list[Design], options) -> tuple[dict[Design, dict], list[str]
                 for future in as_completed(futures):
                     design = futures[future]
                     try:
+                        kept[design].parent.mkdir(parents=True, exist_ok=True)
                         keep(kept[design], future.result())
                     except Exception as error:  # whatever a tool, a worker or its cluster raises
                         failed.append(f"{design.family} {design}: {error or type(error).__name__}")

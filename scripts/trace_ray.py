@@ -17,6 +17,7 @@ import sys
 from pathlib import Path
 
 from raydix.blocks import show_table
+from raydix.cli import image_size
 from raydix.compile import CompiledFrame, CompiledSurface, compile_scene
 from raydix.config import RULES, Config, ConfigError
 from raydix.fit import families
@@ -113,7 +114,7 @@ def parse(arguments):
     parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
     parser.add_argument("--n1", type=int, default=3, help="digits fixed per step (default: 3)")
     parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
-    parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(None, None))
+    parser.add_argument("--size", type=image_size, default=(None, None))
     parser.add_argument("--no-rtl", dest="rtl", action="store_false", help="the golden model only")
     parser.add_argument("--out", type=Path, default=OUT, metavar="DIR", help="folder (default: build/trace)")
     return parser.parse_args(arguments)

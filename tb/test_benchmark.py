@@ -127,7 +127,10 @@ def test_command(script, monkeypatch, tmp_path, capsys):
     """
     out, every = tmp_path / "bench", script.configurations
     some = (script.REFERENCE, "certified, n1 3, K 4", "certified, n1 4, K 6", "paper, n1 3, K 8")
-    chosen = lambda scene: {name: config for name, config in every(scene).items() if name in some}  # noqa: E731
+
+    def chosen(scene):
+        return {name: config for name, config in every(scene).items() if name in some}
+
     monkeypatch.setattr(sys.modules["benchmarks.rows"], "configurations", chosen)
     arguments = [str(SCENES / "sphere.toml"), "--size", "32x24", "--repeats", "2", "--out", str(out)]
     assert script.main(arguments) == 0

@@ -30,7 +30,8 @@ USER_ERRORS = (SceneError, ConfigError, ImageError, RtlError)
 REFERENCE_DIGITS = 24
 
 
-def _size(text: str) -> tuple[int, int]:
+def image_size(text: str) -> tuple[int, int]:
+    """WIDTHxHEIGHT as an argument. Raises ArgumentTypeError."""
     match = re.fullmatch(r"([0-9]{1,6})[xX×]([0-9]{1,6})", text)
     if not match:
         raise argparse.ArgumentTypeError(f"found '{text}'; allowed: WIDTHxHEIGHT, for example 640x480")
@@ -51,7 +52,7 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--vector-rings", type=int, default=1, metavar="N", help="vector-sum rings (default: 1)")
     parser.add_argument("--beat", type=int, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)")
-    parser.add_argument("--size", type=_size, metavar="WxH", help="image size instead of the scene's")
+    parser.add_argument("--size", type=image_size, metavar="WxH", help="image size instead of the scene's")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
 
 

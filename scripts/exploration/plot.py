@@ -6,9 +6,9 @@ from pathlib import Path
 
 from matplotlib.figure import Figure as Picture
 
-from .pareto import ERROR, FRONTS, Point, front
+from benchmarks.plot import COLOURS
 
-COLOURS = {"1": "#fdae6b", "2": "#f16913", "3": "#a63603", "4": "#5b1a02"}  # by n1
+from .pareto import ERROR, FRONTS, Point, front
 
 
 def plot(points: Sequence[Point], path: Path) -> None:
