@@ -9,9 +9,10 @@ PROCESSORS := render-quadric render-torus render-spiral
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
+TESTS   = $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --junitxml=build/results
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore trace-ray synth pnr exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore report trace-ray synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -36,10 +37,10 @@ gallery: $(READY) ## the same for every scene in scenes/
 test: $(READY) ## the regression without what is marked long; one file as a whole (T=<module> SEED=<n> WAVES=1 JOBS=2)
 	@[ -z "$(T)" ] || [ -f "tb/test_$(MODULE).py" ] || { \
 	  echo "make test: found T=$(T); allowed: $(patsubst tb/test_%.py,%,$(wildcard tb/test_*.py))" >&2; exit 2; }
-	@SEED="$(SEED)" WAVES="$(WAVES)" $(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(if $(T),-v tb/test_$(MODULE).py,-m "not long")
+	@SEED="$(SEED)" WAVES="$(WAVES)" $(TESTS)/$(if $(T),$(MODULE),test).xml $(if $(T),-v tb/test_$(MODULE).py,-m "not long")
 
 regress: $(READY) ## every test (SEED=<n> JOBS=2)
-	@SEED="$(SEED)" WAVES= $(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+	@SEED="$(SEED)" WAVES= $(TESTS)/regress.xml
 
 second: $(READY) ## the module tests under Icarus Verilog, with four-state values (T=<module> SEED=<n> JOBS=2 ARGS=)
 	@$(BIN)/python scripts/second.py $(MODULE) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) $(ARGS)
@@ -103,6 +104,9 @@ scaling: $(READY) ## time against pixels, surfaces, depth complexity, unneeded p
 
 explore: $(READY) ## the trade-off: design points placed, simulated and compared; hours, resumes (JOBS=2 ARGS=)
 	@$(BIN)/python scripts/explore.py --jobs $(JOBS) $(ARGS)
+
+report: $(READY) ## one HTML page of what was rendered, tested and measured last: build/report.html (ARGS=)
+	@$(BIN)/python scripts/report.py $(ARGS)
 
 trace-ray: $(READY) ## follow the ray of a pixel through golden model and RTL, step by step, and draw it (SCENE= PIXEL=x,y ARGS=)
 	@[ -n "$(SCENE)" ] && [ -n "$(PIXEL)" ] || { \

@@ -32,10 +32,17 @@ def markdown_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
+def block_of(path: Path, name: str) -> str:
+    """Text of the block ``name`` of a Markdown file. Raises ValueError where there is none."""
+    _, begin, rest = path.read_text().partition(f"<!-- BEGIN generated: {name} -->\n")
+    if not begin:
+        raise ValueError(f"{path}: found no generated block {name!r}")
+    return rest.split("<!-- END")[0]
+
+
 def read_table(path: Path, name: str) -> dict[str, list[str]]:
     """Rows of the table in the block ``name`` of a Markdown file, by their first cells."""
-    block = path.read_text().split(f"<!-- BEGIN generated: {name} -->\n")[1].split("<!-- END")[0]
-    lines = [line for line in block.splitlines() if line.startswith("|")][2:]
+    lines = [line for line in block_of(path, name).splitlines() if line.startswith("|")][2:]
     rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
     return {row[0]: row for row in rows}
 

@@ -286,7 +286,7 @@ def _verify(args: argparse.Namespace) -> int:
         with _progress() as bar:
             bars = bar(f"{scene.name}: golden model, rays"), bar(f"{scene.name}: RTL, rays")
             verdict = verify(scene, config, args.threads, bars)
-        write_verdict(verdict, out, scene.name)
+        write_verdict(verdict, out, scene.name, config)
         _say_what_is_seen(scene, verdict.golden.hits)
         verdicts[scene.name] = verdict
         print(f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {config.rule} rule: {_described(config)}")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scene to frame through either core, and both side by side."""
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -83,10 +84,47 @@ def verify(scene: Scene, config: Config, threads: int = 1, progress=None) -> Ver
     return Verdict(golden, rtl, differing_bits_of(rtl.hits, golden.hits), _image_bits(golden, rtl))
 
 
-def write_verdict(verdict: Verdict, out: Path, name: str) -> list[Path]:
-    """Write both outputs (``out``/golden, ``out``/rtl) and the difference picture: black where they are equal."""
+def steps_of(frame: Frame) -> np.ndarray:
+    """Steps of the items of each pixel together, int64 (H, W): where the work went.
+
+    Of the processor's frame those of the rays whose records left its rings; its counters have the sum of all.
+    """
+    compiled = frame.hits.compiled
+    steps = np.zeros((compiled.height, compiled.width), np.int64)
+    for hits in frame.hits.surfaces:
+        left, top, right, bottom = hits.surface.rect
+        steps[top : bottom + 1, left : right + 1] += hits.steps
+    return steps
+
+
+def summary(verdict: Verdict, config: Config) -> dict:
+    """A verdict in figures, for JSON: each side's rays, hits, steps, seconds and cycles, and how much differs."""
+    height, width = verdict.golden.t.shape
+    sides = {
+        side: frame.hits.counts() | {"seconds": frame.hits.seconds, "cycles": frame.hits.cycles} | frame.counters
+        for side, frame in (("golden", verdict.golden), ("rtl", verdict.rtl))
+    }
+    pixels = {
+        "pixels": int(verdict.differing().sum()),
+        "hit_bits": verdict.hit_bits,
+        "image_bits": verdict.image_bits,
+    }
+    return {"width": width, "height": height, "config": asdict(config), **sides, "differing": pixels}
+
+
+def write_verdict(verdict: Verdict, out: Path, name: str, config: Config) -> list[Path]:
+    """Write both outputs (``out``/golden, ``out``/rtl), and beside them what compares them.
+
+    ``name``-difference.png: black where they are equal; ``name``-steps.npz: :func:`steps_of` of both, arrays golden and
+    rtl; ``name``.json: :func:`summary`.
+    """
     a, b = verdict.golden, verdict.rtl
     picture = np.zeros_like(a.rgb)
     picture[verdict.differing()] = (255, 0, 0)
-    writers = frame_writers(a, out / "golden", name) | frame_writers(b, out / "rtl", name)
-    return write_files(writers | {out / f"{name}-difference.png": png_writer(picture)})
+    text = json.dumps(summary(verdict, config), indent=1) + "\n"
+    beside = {
+        out / f"{name}-difference.png": png_writer(picture),
+        out / f"{name}-steps.npz": lambda work: np.savez_compressed(work, golden=steps_of(a), rtl=steps_of(b)),
+        out / f"{name}.json": lambda work: work.write_text(text),
+    }
+    return write_files(frame_writers(a, out / "golden", name) | frame_writers(b, out / "rtl", name) | beside)
