@@ -13,6 +13,7 @@ import numpy as np
 
 from .compile_spiral import Oversize, linear_lane, needs_general, spiral_words
 from .config import Config
+from .extent import extent
 from .formats import (
     BOX_WIDTH,
     COORD_ACC_WIDTH,
@@ -147,14 +148,12 @@ def _corners(low, high):
     return [mp.matrix(c) for c in combinations(*((low[i], high[i]) for i in range(3)))]
 
 
-def _rectangle(camera, points, near):
-    """Screen rectangle (first column, first row, last column, last row) of camera-space points; None if empty."""
-    if near <= 0:
-        return 0, 0, camera.width - 1, camera.height - 1
-    columns = [x / z / camera.pixel + mp.mpf(camera.width) / 2 for x, _, z in points]
-    rows = [mp.mpf(camera.height) / 2 - y / z / camera.pixel for _, y, z in points]
-    x0, x1 = max(0, int(mp.floor(min(columns))) - 1), min(camera.width - 1, int(mp.ceil(max(columns))))
-    y0, y1 = max(0, int(mp.floor(min(rows))) - 1), min(camera.height - 1, int(mp.ceil(max(rows))))
+def _rectangle(camera, right, up):
+    """Screen rectangle (first column, first row, last column, last row) of a range of slopes; None if empty."""
+    columns = [a / camera.pixel + mp.mpf(camera.width) / 2 for a in right]
+    rows = [mp.mpf(camera.height) / 2 - b / camera.pixel for b in reversed(up)]
+    x0, x1 = max(0, int(mp.floor(columns[0])) - 1), min(camera.width - 1, int(mp.ceil(columns[1])))
+    y0, y1 = max(0, int(mp.floor(rows[0])) - 1), min(camera.height - 1, int(mp.ceil(rows[1])))
     return (x0, y0, x1, y1) if x0 <= x1 and y0 <= y1 else None
 
 
@@ -307,14 +306,30 @@ def _view(camera, surface):
         return None
     corners = [matrix * c + _vector(surface.center) - camera.eye for c in _corners(low, high)]
     points = [(_dot(c, camera.right), _dot(c, camera.up), _dot(c, camera.forward)) for c in corners]
-    near = max(mp.mpf(0), min(p[2] for p in points))
-    far = max(p[2] for p in points)
-    if far <= near:
+    near, far = min(p[2] for p in points), max(p[2] for p in points)
+    if far <= 0:
         return None
-    rect = _rectangle(camera, points, near)
-    if rect is None:
+    if near <= 0:
+        return matrix, low, high, cut, (0, 0, camera.width - 1, camera.height - 1), mp.mpf(0), far
+    of_box = [[p[axis] / p[2] for p in points] for axis in (0, 1)]
+    bounds = [(min(slopes), max(slopes)) for slopes in of_box] + [(near, far)]
+    seen = extent(surface, *_seen_from(camera, surface, matrix, low, high))
+    if seen is None:
         return None
-    return matrix, low, high, cut, rect, near, far
+    right, up, (near, far) = (
+        (max(least, a - (b - a) * MARGIN), min(most, b + (b - a) * MARGIN))
+        for (least, most), (a, b) in zip(bounds, seen, strict=True)
+    )
+    rect = _rectangle(camera, right, up)
+    return None if rect is None else (matrix, low, high, cut, rect, near, far)
+
+
+def _seen_from(camera, surface, matrix, low, high):
+    """What :func:`~raydix.extent.extent` needs beside the surface, in float64."""
+    axes = mp.matrix([list(v) for v in (camera.right, camera.up, camera.forward)])
+    values = low, high, axes * matrix, axes * (_vector(surface.center) - camera.eye)
+    low, high, turned, eye = (np.array(v.tolist(), np.float64) for v in values)
+    return low[:, 0], high[:, 0], turned, eye[:, 0]
 
 
 def _compile_surface(scene, camera, config, depth_factor, index, surface, matrix, low, high, cut, rect, near, far):
