@@ -117,7 +117,7 @@ def run(module, toplevel, parameters=None, checks=None):
     module      name of the calling test file: ``__name__``
     parameters  of the toplevel; the cocotb tests read them from the design
     checks      names of the cocotb tests to be run; all if not given
-    The environment variables SEED and WAVES=1 are those of ``make test``.
+    The environment variables SEED and WAVES are those of ``make test``; WAVES=vcd or fst chooses the kind of waveform.
     """
     from cocotb_tools.runner import get_results, get_runner
 
@@ -130,7 +130,8 @@ def run(module, toplevel, parameters=None, checks=None):
     name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{'-'.join(checks)}" if checks else "")
     replay = f"make test T={module.removeprefix('test_')} SEED={seed}"
     print(f"{name}: SEED={seed}, replay: {replay}")
-    waves = ("fst" if has_fst() else "vcd") if os.environ.get("WAVES") not in (None, "", "0") and not icarus else None
+    wanted = "" if icarus else os.environ.get("WAVES", "").strip("0")
+    waves = wanted and (wanted if wanted in ("vcd", "fst") else "fst" if has_fst() else "vcd")
     start = 0 if os.environ.get(coverpoints.MANIFEST) else 2  # random values at the start would count as toggles
     arguments = [] if icarus else [f"+verilator+rand+reset+{start}", f"+verilator+seed+{seed % 0x7FFFFFFF + 1}"]
     if waves:
@@ -138,7 +139,8 @@ def run(module, toplevel, parameters=None, checks=None):
         WAVES.mkdir(parents=True, exist_ok=True)
         arguments += ["--trace", "--trace-file", str(file)]
         # a warning, because pytest shows those of tests that pass, too, and by parallel workers
-        warnings.warn(f"waveform ({'lz4.h found' if waves == 'fst' else 'no lz4.h, so not fst'}): {file}", stacklevel=2)
+        why = "as asked for" if wanted == waves else "lz4.h found" if waves == "fst" else "no lz4.h, so not fst"
+        warnings.warn(f"waveform ({why}): {file}", stacklevel=2)
     settings = {**environment(), "MAKEFLAGS": MAKE_VARIABLES, "WAVES": ""}
     with patch.dict(os.environ, settings):
         os.environ.pop("PYTEST_CURRENT_TEST", None)  # else the runner ends the process where a test fails

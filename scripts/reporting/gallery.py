@@ -78,7 +78,7 @@ def steps_picture(steps: np.ndarray, most: int) -> tuple[np.ndarray, str]:
     """Steps (H, W) from dark to light; ``most`` is the lightest."""
     colors = matplotlib.colormaps["viridis"](steps / max(most, 1), bytes=True)[..., :3].copy()
     colors[steps == 0] = MISS
-    return colors, f"dark blue: one step, yellow: {most:,}; grey: none. {int(steps.sum()):,} in all"
+    return colors, f"dark: one step, yellow: {most:,}; grey: none. {int(steps.sum()):,} in all"
 
 
 def _pair(figures: dict, name: str, form: str = ",") -> tuple[str, str]:
