@@ -57,7 +57,8 @@ def run(name: str, seed: str | None) -> tuple[int, Path]:
     new = [p for p in WAVES.glob("*.vcd") if before.get(p) != p.stat().st_mtime_ns and not p.stem.endswith("-reals")]
     if not new:
         raise WavesError(f"{name}: found no waveform; allowed: a test that simulates a module")
-    return done.returncode, max(new, key=lambda path: path.stat().st_mtime_ns)
+    newest = max(new, key=lambda path: path.stat().st_mtime_ns)
+    return done.returncode, newest.relative_to(Path.cwd()) if newest.is_relative_to(Path.cwd()) else newest
 
 
 def show(wave: Path, start: int | None, clocks: int) -> dict[Path, str]:
