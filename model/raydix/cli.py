@@ -19,7 +19,7 @@ from .config import RULES, Config, ConfigError
 from .fit import families, frame_parameters
 from .formats import STEPS_MAX
 from .hits import FrameHits
-from .image import ImageError, frame_writers, png_writer, write_files
+from .image import ImageError, frame_writers, write_files
 from .rtl import TOP, RtlError, build, top_parameters
 from .scene import Scene, SceneError, load_scene
 
@@ -68,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--backend", choices=("golden", "rtl"), default="golden", help="who computes (default: golden)")
     render.add_argument("--wave", type=Path, metavar="FILE", help="with --backend rtl: write a waveform, .vcd or .fst")
     render.add_argument("--frames", action="store_true", help="every frame of the scene's sequence, and a preview")
+    render.add_argument("--resume", action="store_true", help="with --frames: only those that are not there yet")
     configure = commands.add_parser("configure", help="the smallest processor that renders a scene")
     configure.add_argument("scene", type=Path, help="scene file (TOML)")
     _add_scene_options(configure)
@@ -172,6 +173,8 @@ def _render(args: argparse.Namespace) -> int:
     config = _config(args, scene)
     if args.frames:
         return _render_frames(args, scene, config)
+    if args.resume:
+        raise ConfigError("resume: found for a single frame; allowed: with --frames")
     if args.wave and args.backend != "rtl":
         raise ConfigError(f"wave: found '{args.wave}' with the golden model; allowed: with --backend rtl")
     if args.backend == "rtl":
@@ -188,22 +191,26 @@ def _render(args: argparse.Namespace) -> int:
 
 
 def _render_frames(args: argparse.Namespace, scene: Scene, config: Config) -> int:
-    """A sequence: a PNG for each frame, and an animated preview."""
-    from .sequence import preview_writer, render_sequence
+    """A sequence: a PNG for each frame as soon as it is there, and an animated preview."""
+    from .sequence import Kept, render_sequence
 
     if not scene.cameras:
         raise ConfigError(f"frames: found no sequence in {scene.path}; allowed: a scene with [turntable] or [[frame]]")
     if args.wave:
         raise ConfigError("wave: found with --frames; allowed: with a single frame")
-    if args.backend == "rtl":
+    kept = Kept(scene, config, args.out)
+    numbers = kept.resume() if args.resume else list(range(len(kept.paths)))
+    if len(numbers) < len(kept.paths):
+        print(f"raydix: {len(kept.paths) - len(numbers)} of {len(kept.paths)} frames are there", file=sys.stderr)
+    if numbers and args.backend == "rtl":
         _build(config)
     with _progress() as bar:
-        pictures = render_sequence(scene, config, args.backend, args.threads, bar(f"{args.backend}, frames"))
-    digits = len(str(len(pictures) - 1))
-    writers = {
-        args.out / f"{scene.name}-{number:0{digits}}.png": png_writer(rgb) for number, rgb in enumerate(pictures)
-    }
-    for path in write_files(writers | {args.out / f"{scene.name}.gif": preview_writer(pictures)}):
+        progress = bar(f"{args.backend}, frames")
+        for number, rgb in render_sequence(scene, config, args.backend, numbers, args.threads, progress):
+            kept.keep(number, rgb)
+    preview = args.out / f"{scene.name}.gif"
+    kept.preview(preview)
+    for path in (*kept.paths, preview):
         print(path)
     return 0
 
@@ -347,7 +354,8 @@ def main(argv: list[str] | None = None) -> int:
             print(f"raydix: {line}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("raydix: interrupted; nothing half written", file=sys.stderr)
+        more = "; --resume goes on" if getattr(args, "frames", False) else ""
+        print(f"raydix: interrupted; nothing half written{more}", file=sys.stderr)
         return 130
     except BrokenPipeError:
         return 0
