@@ -47,13 +47,14 @@ COLUMNS = (
     "BRAM",
     "fmax, MHz",
     "Mray/s",
+    "frames a second",
     "Mray/s per 1,000 LUT4",
     "latency, ns",
     "error 99.9 %",
     "silhouette",
     "on the front of",
 )
-GOALS = ("surfaces", "goal", "engine", "LUT4", "Mray/s", "latency, ns", "error 99.9 %")
+GOALS = ("surfaces", "goal", "engine", "LUT4", "Mray/s", "frames a second", "latency, ns", "error 99.9 %")
 
 
 @contextmanager
@@ -120,6 +121,7 @@ def rows_of(points: list[Point]) -> list[list[str]]:
             f"{p.bram}",
             f"{p.fmax:.1f}",
             f"{p.rate:.1f}",
+            f"{p.frames:.1f}",
             f"{p.per_klut:.2f}",
             f"{p.latency:,.0f}",
             f"{p.error:.1e}",
@@ -136,8 +138,9 @@ def goals_of(points: list[Point], family: str) -> list[list[str]]:
     if not points:
         return found
     for goal, p in recommended(points).items():
-        figures = [p.name, f"{p.lut4:,}", f"{p.rate:.1f}", f"{p.latency:,.0f}", f"{p.error:.1e}"] if p else ["none"]
-        found.append([family, goal, *figures, *[""] * (5 - len(figures))])
+        rates = [f"{p.rate:.1f}", f"{p.frames:.1f}"] if p else []
+        figures = [p.name, f"{p.lut4:,}", *rates, f"{p.latency:,.0f}", f"{p.error:.1e}"] if p else ["none"]
+        found.append([family, goal, *figures, *[""] * (6 - len(figures))])
     return found
 
 

@@ -62,16 +62,18 @@ def test_designs(script):
 
 
 def test_figures_of_a_result(script):
-    """100 MHz, ten rays in twenty clocks, five clocks for one, 2,000 LUT4."""
+    """100 MHz, ten rays in twenty clocks, five clocks for one, 2,000 LUT4; 1080 rows have 20.25 times the rays."""
     figures = {"lut4": 2000, "ff": 7, "dsp": 3, "bram": 1, "rays": 10, "cycles": 20, "latency": 5, "fmax": 100.0}
     p = script.point_of("name", {"design": {"family": "quadric"}, "p999": 1e-7, "silhouette": 2, **figures})
     assert (p.family, p.lut4, p.ff, p.dsp, p.bram, p.error, p.silhouette) == ("quadric", 2000, 7, 3, 1, 1e-7, 2)
+    assert p.frames == pytest.approx(100e6 / 20 / 20.25)
     assert p.rate == pytest.approx(50) and p.per_klut == pytest.approx(25) and p.latency == pytest.approx(50)
 
 
 def made(script, name, lut4, rate, latency, error=1e-7, silhouette=0):
     """A placed design with chosen figures."""
-    return script.Point(name, "quadric", lut4, 0, 0, 0, 100.0, rate, 1e3 * rate / lut4, latency, error, silhouette)
+    figures = 100.0, rate, rate / 2, 1e3 * rate / lut4, latency, error, silhouette
+    return script.Point(name, "quadric", lut4, 0, 0, 0, *figures)
 
 
 def test_fronts_and_goals(script):

@@ -4,8 +4,11 @@
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from .designs import SIZE
+
 GOOD = 1e-5  # largest 99.9 % error of the depth, scene units, of a design that is recommended
-REAL_TIME = 60 * 1920 * 1080 / 1e6  # Mray/s: a ray for each pixel of 60 frames a second
+REAL_TIME = 60  # frames of 1920×1080 a second
+SCALE = (1080 / SIZE[1]) ** 2  # what is seen of the scene has so many pixels more there; the margins are empty
 
 
 class Point(NamedTuple):
@@ -15,6 +18,7 @@ class Point(NamedTuple):
     lut4, dsp, bram  cells; ff flip-flops
     fmax           MHz
     rate           Mray/s: clock times rays a clock in a frame
+    frames         of the scene a second at 1920×1080: clock over clocks of the frame measured, times SCALE
     per_klut       Mray/s for 1,000 LUT4
     latency        ns from the start of a frame of one ray to its hit
     error          99.9 % of the errors of the depth, scene units; silhouette: pixels wrong
@@ -28,6 +32,7 @@ class Point(NamedTuple):
     bram: int
     fmax: float
     rate: float
+    frames: float
     per_klut: float
     latency: float
     error: float
@@ -44,6 +49,7 @@ def point_of(name: str, result: dict) -> Point:
         *(result[kind] for kind in ("lut4", "ff", "dsp", "bram")),
         fmax,
         rate,
+        1e6 * fmax / (result["cycles"] * SCALE),
         1e3 * rate / lut4,
         1e3 * result["latency"] / fmax,
         result["p999"],
@@ -84,7 +90,7 @@ def front(points: Sequence[Point], figures: Sequence[Figure]) -> list[Point]:
 def recommended(points: Sequence[Point]) -> dict[str, Point | None]:
     """For each goal the design to take, of those that are right: no silhouette pixel wrong, error at most GOOD."""
     right = [p for p in points if p.silhouette == 0 and p.error <= GOOD]
-    fast = [p for p in right if p.rate >= REAL_TIME]
+    fast = [p for p in right if p.frames >= REAL_TIME]
 
     def best(some: Sequence[Point], figure: Figure) -> Point | None:
         return min(some, key=figure.cost, default=None)
