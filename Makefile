@@ -12,7 +12,7 @@ READY  := $(VENV)/.ready
 TESTS   = $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --junitxml=build/results
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore report waves trace-ray synth pnr exact-spirals formal regress second mutants coverage clean distclean
+.PHONY: help setup render gallery test lint formats csr accuracy rules types spirals errors stress search speed realtime bench bench-full bench-check scaling explore report waves figures trace-ray synth pnr exact-spirals formal regress second mutants coverage clean distclean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -111,6 +111,9 @@ report: $(READY) ## one HTML page of what was rendered, tested and measured last
 waves: $(READY) ## run one test with a waveform and write what shows it: GTKWave, Surfer, a picture (T=<module>, or "<module>[N1=3"; ARGS=)
 	@[ -n "$(T)" ] || { echo "make waves: found no T; allowed: a module, for example T=ring" >&2; exit 2; }
 	@$(BIN)/python scripts/waves.py "$(T)" $(if $(SEED),--seed $(SEED)) $(ARGS)
+
+figures: $(READY) ## draw the figures of docs/method.md from what the golden model computes (ARGS=--write)
+	@$(BIN)/python scripts/figures.py $(ARGS)
 
 trace-ray: $(READY) ## follow the ray of a pixel through golden model and RTL, step by step, and draw it (SCENE= PIXEL=x,y ARGS=)
 	@[ -n "$(SCENE)" ] && [ -n "$(PIXEL)" ] || { \

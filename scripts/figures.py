@@ -10,6 +10,7 @@ Exit status 0: written; 2: a file cannot be written.
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import matplotlib
@@ -30,7 +31,8 @@ from matplotlib import pyplot  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 DARK, LIGHT, INK, RED = "#24406e", "#dbe6f6", "#1b1f27", "#c0392b"
-PIXEL = 320, 200  # of the ray whose first step is drawn
+PIXEL = 200, 130  # of the ray whose first step is drawn
+WIDE = 44.0  # degrees: the whole of the box is in the picture
 
 
 def cells_of(scene, config: Config, x: int, y: int):
@@ -98,6 +100,7 @@ def corners_on_screen(scene) -> tuple[np.ndarray, np.ndarray]:
 
 def draw_rectangle(scene, config: Config, out: Path) -> None:
     """A picture with the rectangle that is walked, and that of the surface's box, which would be twice as large."""
+    scene = replace(scene, camera=scene.camera.model_copy(update={"vfov": WIDE}))
     frame = render_golden(scene, config)
     (left, top, right, bottom), (columns, rows) = frame.hits.compiled.surfaces[0].rect, corners_on_screen(scene)
     figure, axes = pyplot.subplots(figsize=(6.4, 4.8), layout="constrained")
@@ -110,7 +113,7 @@ def draw_rectangle(scene, config: Config, out: Path) -> None:
         axes.plot([x0, x1, x1, x0, x0], [y0, y0, y1, y1, y0], style, color=color, linewidth=1.5, label=label)
     axes.set_xlim(0, scene.camera.width)
     axes.set_ylim(scene.camera.height, 0)
-    axes.legend(loc="lower right", fontsize=8, title="rectangle", title_fontsize=8)
+    axes.legend(loc="lower right", fontsize=8, title="rectangle", title_fontsize=8, facecolor="#888888")
     axes.set_axis_off()
     figure.savefig(out, dpi=110)
     pyplot.close(figure)

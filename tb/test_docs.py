@@ -27,6 +27,7 @@ SMALL = {
     "make explore": 'make explore ARGS="--kept --out {out}"',
     "make trace-ray": 'make trace-ray SCENE=scenes/torus.toml PIXEL=320,200 ARGS="--no-rtl --out {out}"',
     "make report": 'make report ARGS="--render {out} --results {out} --out {out}/report.html"',
+    "make figures": 'make figures ARGS="--out {out}"',
     "make csr": ".venv/bin/python -m raydix.csr",
     "make formats": ".venv/bin/python -m raydix.formats",
     "make mutants": "make mutants T=select ARGS=--list",
