@@ -41,5 +41,5 @@ def test_pictures(tmp_path):
         shown = rows < 0.8 * len(picture)  # not the legend
         return columns[shown].min(), columns[shown].max()
 
-    torus, yellow = reach((203, 156, 98), 40), reach((242, 193, 78), 30)
+    torus, yellow = reach((203, 156, 98), 20), reach((242, 193, 78), 30)
     assert yellow[0] < torus[0] < torus[1] < yellow[1]
