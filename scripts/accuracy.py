@@ -22,6 +22,7 @@ from raydix.blocks import write_table
 from raydix.config import RULES, Config
 from raydix.fit import families
 from raydix.oracle import ideal_frame
+from raydix.progress import track
 from raydix.render import render_golden
 from raydix.scene import load_scene
 
@@ -58,7 +59,7 @@ def main(arguments=None):
     options = parse(arguments)
     scenes = options.scene or sorted(SCENES.glob("*.toml"))
     try:
-        rows = [measure(scene, options) for scene in scenes]
+        rows = [measure(scene, options) for scene in track(scenes, "scenes")]
     except (ValueError, OSError) as error:
         print(f"accuracy: {error}", file=sys.stderr)
         return 2

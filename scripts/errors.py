@@ -8,8 +8,6 @@ from pathlib import Path
 
 import mpmath as mp
 import numpy as np
-from rich.console import Console
-from rich.progress import track
 
 from raydix import stress, stress_polynomials, stress_rays, stress_spirals
 from raydix.blocks import show_table, write_table
@@ -20,6 +18,7 @@ from raydix.config import Config
 from raydix.error_bounds import halving, resolution
 from raydix.error_measure import coordinate_error, halving_error, indicator_errors, product_errors, word_errors
 from raydix.formats import COORD_ACC_WIDTH
+from raydix.progress import track
 from raydix.rounding import bernstein, passed
 from raydix.segments import Segments, trace_segments, whole
 from raydix.surfaces import form
@@ -36,8 +35,7 @@ def halving_rows(count: int, seed: int, degrees=(4, 2), shapes=SHAPES):
         for n1, steps in shapes:
             config, dice = Config(n1, steps, degree=degree, units=1), np.random.default_rng(seed)
             worst, least, cases, bound = 0.0, 0.0, 0, 0.0
-            for make in track(stress_polynomials.CATEGORIES.values(), f"halving {n1} {degree}", transient=True,
-                              console=Console(stderr=True)):  # fmt: skip
+            for make in track(stress_polynomials.CATEGORIES.values(), f"halving {n1} {degree}"):
                 b = stress_polynomials.fitted(make(dice, count, degree), config.width)
                 t, _ = trace_segments(Segments(b, whole(len(b))), config)
                 for i in np.flatnonzero(t[:, 0] >= 0):

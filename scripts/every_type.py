@@ -16,13 +16,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.progress import Progress
 
 from raydix.blocks import show_table, write_table
 from raydix.chords import chord_quads, random_chords, rates, trace_chords
 from raydix.config import Config
 from raydix.oracle import chord_roots, quadrics
+from raydix.progress import track
 from raydix.scene import load_scene
 from raydix.surfaces import bounding_box, form
 
@@ -112,11 +111,10 @@ def main(arguments=None) -> int:
     if args.write and args.scene:
         parser.error("--write: found with some types; allowed: with all of them")
     rules, widths = [], []
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        for name in bar.track(args.scene or SCENES, description="types"):
-            chords = Chords(name, args.chords, args.seed)
-            rules += rule_rows(chords)
-            widths += width_rows(chords)
+    for name in track(args.scene or SCENES, "types"):
+        chords = Chords(name, args.chords, args.seed)
+        rules += rule_rows(chords)
+        widths += width_rows(chords)
     show_table(f"Both rules, W = 36, {args.chords:,} chords of each type", RULES, rules, RULES[:1], 200)
     show_table("The certified rule, n1 = 3, K = 8", WIDE, widths, WIDE[:1], 160)
     if args.write:

@@ -11,8 +11,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from rich.console import Console
-from rich.progress import track
 
 from raydix import spiral
 from raydix.blocks import show_table, write_table
@@ -27,6 +25,7 @@ from raydix.chords_spiral import (
 )
 from raydix.exact_spiral import MISSED, Judged, ends_of_words, judge
 from raydix.formats import STEPS_MAX
+from raydix.progress import track
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "exact.md"
 MARGIN = 64  # ulp of t by which the found cell is widened on either side
@@ -139,7 +138,7 @@ def rows(spirals: int, chords: int, seed: int, processes: int) -> Iterator[list[
         for kind in KINDS:
             seeds = (seed * spirals + number for number in range(spirals))
             work = pool.map(one, surfaces, repeat(kind), repeat(chords), seeds)
-            made = list(track(work, kind, total=spirals, console=Console(stderr=True)))
+            made = list(track(work, kind, spirals))
             for number, config in enumerate(CONFIGS):
                 yield cells(kind, config, [parts[number] for parts in made])
 

@@ -21,6 +21,7 @@ from raydix.config import VECSUMS, Config, ConfigError
 from raydix.fit import families, frame_parameters
 from raydix.golden import trace_golden
 from raydix.processor import ALL, SKIPS, run_frames
+from raydix.progress import track
 from raydix.rtl import RtlError
 from raydix.scene import SceneError, load_scene
 from raydix.shade import compose
@@ -131,7 +132,7 @@ def main():
         sorted(SCENES.glob("*.toml")) if args.skips else [SCENES / f"{name}.toml" for name in BUILT]
     )
     try:
-        results = [row_of(path, args) for path in scenes]
+        results = [row_of(path, args) for path in track(scenes, "scenes")]
     except (SceneError, ConfigError, RtlError) as error:
         print(f"realtime: {error}", file=sys.stderr)
         return 2

@@ -15,6 +15,7 @@ from raydix.blocks import write_table
 from raydix.chords import chord_quads, paper_float, random_chords, rates, trace_chords
 from raydix.config import Config
 from raydix.oracle import chord_roots, quadrics
+from raydix.progress import track
 from raydix.surfaces import form
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,7 +32,7 @@ def measure(count, seed, radius, width):
     h, e = random_chords(count, radius, seed)
     exact = chord_roots(quadrics(TORUS), h, e)
     quads = chord_quads(form(TORUS), h, e)
-    for n1, steps in ((1, 24), (2, 12), (3, 8), (4, 6)):
+    for n1, steps in track(((1, 24), (2, 12), (3, 8), (4, 6)), "digits a step"):
         yield n1, steps, "paper, true distance, float64", rates(paper_float(distance, h, e, n1, steps), exact, 24)
         for rule in ("paper", "certified"):
             config = Config(n1, steps, width, rule=rule, units=1)

@@ -13,6 +13,7 @@ from raydix.compile import compile_scene
 from raydix.config import Config
 from raydix.fit import families
 from raydix.golden import trace_golden
+from raydix.progress import track
 from raydix.rtl import RtlError, build, trace_rtl
 from raydix.scene import SceneError, load_scene
 
@@ -32,8 +33,10 @@ def main():
         compiled = compile_scene(scene, config)
         build(config)
         # one and two threads take turns, so that noise hits both
-        golden = [[trace_golden(compiled, config, n).seconds for n in (1, 2)] for _ in range(args.runs)]
-        rtl = [trace_rtl(compiled, config).seconds for _ in range(max(1, args.runs // 4))]
+        golden = [
+            [trace_golden(compiled, config, n).seconds for n in (1, 2)] for _ in track(range(args.runs), "golden model")
+        ]
+        rtl = [trace_rtl(compiled, config).seconds for _ in track(range(max(1, args.runs // 4)), "RTL")]
     except (SceneError, RtlError) as error:
         print(f"speed: {error}", file=sys.stderr)
         return 2

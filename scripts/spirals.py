@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 from rich.console import Console
-from rich.progress import track
 from rich.table import Table
 
 from raydix.blocks import write_table
@@ -26,6 +25,7 @@ from raydix.compile_spiral import NEVER
 from raydix.config import Config
 from raydix.formats import FORM_INDEX, ZONES
 from raydix.oracle_spiral import spiral_chord_roots
+from raydix.progress import track
 from raydix.scene import Spiral
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -66,7 +66,7 @@ def cases(spirals: int, chords: int, seed: int) -> list:
     """Random spirals, chords through them as the words have them, and the exact roots and clearances."""
     dice = random.Random(seed)
     made = []
-    for number in track(range(spirals), "exact roots", console=Console(stderr=True)):
+    for number in track(range(spirals), "exact roots"):
         surface = random_spiral(dice)
         compiled = compile_chords(surface, *chords_through(surface, chords, seed * spirals + number), Config())
         made.append((surface, compiled.h, compiled.e, *spiral_chord_roots(surface, compiled.h, compiled.e)))

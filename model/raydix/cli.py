@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from .config import RULES, Config, ConfigError
@@ -20,6 +19,7 @@ from .fit import families, frame_parameters
 from .formats import STEPS_MAX
 from .hits import FrameHits
 from .image import ImageError, frame_writers, write_files
+from .progress import bars
 from .rtl import TOP, RtlError, build, top_parameters
 from .scene import Scene, SceneError, load_scene
 
@@ -131,13 +131,11 @@ def _described(config: Config) -> str:
 @contextmanager
 def _progress() -> Iterator[Callable[[str], Callable[[int, int], None]]]:
     """Gives a function that makes one bar after the other; nothing is drawn where stderr is no terminal."""
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
+    with bars() as shown:
 
         def bar(label: str) -> Callable[[int, int], None]:
-            task = bars.add_task(label, total=None)
-            return lambda done, total: bars.update(task, completed=done, total=total)
+            task = shown.add_task(label, total=None)
+            return lambda done, total: shown.update(task, completed=done, total=total)
 
         yield bar
 
