@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bars on stderr for what takes longer than a moment: how much is done, how fast it goes, and how long it still takes."""
+"""Bars on stderr for what takes longer than a moment: how much is done, how fast it goes, what is left."""
 
 from collections.abc import Iterable, Iterator
 from typing import TypeVar
