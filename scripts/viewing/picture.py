@@ -11,6 +11,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
 ROWS = 28  # most signals of a picture
+CHARACTER = 0.0047  # width of one, as part of the time axis
 SHADE, INK = "#dbe6f6", "#24406e"
 
 
@@ -55,7 +56,7 @@ def first_valid(wave: Path, groups: list[Group], until: int) -> int:
 
 def text_of(signal: Signal, bits: int) -> str:
     """A value as it is written into its box."""
-    return f"{signal.number.value(bits, signal.width):.4g}" if signal.number else f"{bits:x}"
+    return f"{signal.number.value(bits, signal.width):.3g}" if signal.number else f"{bits:x}"
 
 
 def draw(wave: Path, groups: list[Group], start: int, until: int, period: int, title: str, out: Path) -> None:
@@ -78,7 +79,7 @@ def draw(wave: Path, groups: list[Group], start: int, until: int, period: int, t
                 continue
             axes.fill_between([left, right], base, base + 0.7, facecolor=SHADE, edgecolor=INK, linewidth=0.6)
             text = text_of(signal, bits)
-            if right - left > 0.0125 * len(text) * (until - start) / period / 1.7:
+            if right - left > CHARACTER * len(text) * (until - start) / period:
                 axes.text((left + right) / 2, base + 0.33, text, ha="center", va="center", fontsize=6.5, color=INK)
     axes.set_yticks([len(signals) - 1 - i + 0.35 for i in range(len(signals))], [s.short for s in signals], fontsize=8)
     axes.set_xlim(start / period, until / period)
