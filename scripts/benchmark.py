@@ -33,6 +33,7 @@ from benchmarks.tables import BEATEN, LEFT, TABLE, beaten, cells
 from raydix.blocks import show_table, write_table
 from raydix.cli import image_size
 from raydix.config import ConfigError
+from raydix.image import write_files
 from raydix.rtl import RtlError
 from raydix.scene import SceneError, load_scene
 
@@ -72,7 +73,8 @@ def publish(rows: Sequence[Row], clock_rows) -> None:
     write_table(PAGE, "beaten", BEATEN, beaten(rows))
     for scene in CHOSEN[:3]:
         plot([r for r in rows if r.scene == scene], RAYDIX, ROOT / "docs" / "images" / f"benchmark-{scene}.png")
-    BASELINE.write_text(json.dumps([asdict(row) for row in rows]) + "\n")
+    text = json.dumps([asdict(row) for row in rows]) + "\n"
+    write_files({BASELINE: lambda work: work.write_text(text)})
 
 
 def parse(arguments):
@@ -90,6 +92,8 @@ def parse(arguments):
     options = parser.parse_args(arguments)
     if options.repeats < 1:
         parser.error("--repeats: found less than 1; allowed: 1 or more")
+    if options.check and options.only_rtl:
+        parser.error("--check: found with --only-rtl; allowed: with times, whose ratios it compares")
     if options.write and (options.scene or options.full or options.check or options.size != (None, None)):
         parser.error("--write: found with other scenes, another size or --check; allowed: as the page has it")
     return options

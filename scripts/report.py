@@ -84,7 +84,7 @@ def main():
     try:
         text = page(args.render, args.results)
         write_files({args.out: lambda work: work.write_text(text)})
-    except (ImageError, ResultsError) as error:
+    except (ImageError, ResultsError, ValueError, OSError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 2
     print(f"{args.out} ({len(text) / 1e6:.1f} MB): open it in a browser")

@@ -35,8 +35,8 @@ def test_named(text: str) -> str:
     """The pytest name of the first test that is meant: a module, or that and a part of a test's name in brackets."""
     module, _, part = text.removeprefix("rdx_").removeprefix("test_").partition("[")
     path = ROOT / "tb" / f"test_{module}.py"
-    if not path.is_file():
-        known = ", ".join(sorted(p.stem.removeprefix("test_") for p in path.parent.glob("test_*.py")))
+    if "/" in module or not path.is_file():
+        known = ", ".join(sorted(p.stem.removeprefix("test_") for p in (ROOT / "tb").glob("test_*.py")))
         raise WavesError(f"T: found '{text}'; allowed: {known}, or one of them and a part of a test's name: ring[N1=1")
     command = [sys.executable, "-m", "pytest", "--collect-only", "-q", str(path)]
     lines = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout.splitlines()
@@ -111,6 +111,8 @@ def main():
     args = parser.parse_args()
     if (args.test is None) == (args.file is None):
         parser.error("found both or none of TEST and --file; allowed: one")
+    if args.start is not None and args.start < 0:
+        parser.error(f"--start: found {args.start}; allowed: 0 or more")
     if args.clocks < 1:
         parser.error(f"--clocks: found {args.clocks}; allowed: 1 or more")
     try:

@@ -8,11 +8,12 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from raydix import extent, spiral
+from raydix import compile, extent, spiral
 from raydix.compile import camera_of, clip_box, compile_scene
 from raydix.config import Config
 from raydix.fit import families
 from raydix.golden import trace_golden
+from raydix.render import render_golden
 from raydix.scene import load_scene
 from raydix.surfaces import form, value
 from test_random_scenes import TYPES, scene_text
@@ -133,3 +134,31 @@ def test_camera_in_the_box(tmp_path):
     scene = load_scene(tmp_path / "scene.toml")
     (surface,) = compile_scene(scene, Config()).surfaces
     assert surface.rect == (0, 0, 63, 47) and surface.near == 0
+
+
+PLATE = """[camera]
+eye = [{0}, {1}, {2}]
+look_at = [{0}, {1}, 0.3]
+up = [0.0, 1.0, 0.0]
+vfov = 20.0
+width = 16
+height = 12
+[[surface]]
+type = "plane"
+center = [{0}, {1}, 0.3]
+clip = [[-{4}, -{4}, -{3}], [{4}, {4}, {3}]]
+"""
+
+
+@pytest.mark.parametrize("offset", [0.1, 0.0])
+@pytest.mark.parametrize("distance", [3.0, 10.0, 1e3, 1e6, 1e8])
+@pytest.mark.parametrize("half", [1e-7, 1e-4, 1e-2, 1.0])
+def test_thin_and_far(half, distance, offset, tmp_path, monkeypatch):
+    """A plate that faces the camera has no depth: rounding must not lose it. The same pixels as without bounds."""
+    (tmp_path / "scene.toml").write_text(PLATE.format(offset, 2 * offset, distance + 0.3, half, distance / 10))
+    scene, hits = load_scene(tmp_path / "scene.toml"), []
+    for bound in (extent.extent, lambda *_: extent.Extent(extent.NOWHERE, extent.NOWHERE, extent.NOWHERE)):
+        monkeypatch.setattr(compile, "extent", bound)
+        frame = render_golden(scene, Config())
+        hits.append((frame.surface >= 0).sum())
+    assert hits[0] == hits[1] > 20

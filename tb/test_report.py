@@ -103,7 +103,13 @@ def test_nothing_was_run(tmp_path):
         (lambda f: (f / "render/sphere/sphere-steps.npz").unlink(), "sphere: found no output of raydix verify"),
         (lambda f: (f / "render/sphere/sphere.json").write_text("{}"), "sphere: found no output of raydix verify"),
         (lambda f: (f / "render/sphere/golden/sphere.png").write_text("x"), "sphere.png: not a readable picture"),
+        (lambda f: (f / "render/sphere/sphere.json").write_text("[1]"), "sphere: found no output of raydix verify"),
+        (
+            lambda f: (f / "render/sphere/golden/sphere.npz").write_text("PKx"),
+            "sphere: found no output of raydix verify",
+        ),
         (lambda f: (f / "results/test.xml").write_text("<a>"), "test.xml: found no results of pytest"),
+        (lambda f: (f / "results/test.xml").write_text(RESULTS.replace("1.5", "x")), "test.xml: found the time 'x'"),
     ],
 )
 def test_damaged_files(run, tmp_path, damage, said):

@@ -126,6 +126,9 @@ def test_picture(wave):
     [
         (["nothing"], "T: found 'nothing'; allowed: accuracy, advance"),
         (["settle[N1=9"], "T: found 'settle[N1=9'; allowed of this module: test_settle[N1=3-K=8-W=36-D=4]"),
+        (["../../x"], "T: found '../../x'; allowed: accuracy, advance"),
+        (["--file", "up.vcd"], "up.vcd: found no waveform"),
+        (["--file", "still.vcd", "--start", "-5"], "--start: found -5"),
         (["--file", "missing.vcd"], "missing.vcd: No such file or directory"),
         (["--file", "bad.vcd"], "bad.vcd: found no waveform"),
         (["--file", "still.vcd"], "still.vcd: found a clock that does not run"),
@@ -138,6 +141,7 @@ def test_bad_input(tmp_path, monkeypatch, arguments, said):
     """One line that names what was found; exit status 2, no traceback, and no file."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bad.vcd").write_text("this is no waveform")
+    (tmp_path / "up.vcd").write_text("$upscope $end\n" + HEAD)
     (tmp_path / "still.vcd").write_text(HEAD + "#0\n0a\n")
     (tmp_path / "none.vcd").write_text(HEAD.replace("clk_i", "clock"))
     before = sorted(tmp_path.iterdir())

@@ -28,6 +28,7 @@ from .surfaces import bounding_box, form
 
 PRECISION = 256  # bits of the working precision
 MARGIN = mp.mpf(2) ** -16  # by which a bounding box is widened, relative to its size
+THINNEST = mp.mpf(2) ** -8  # of the depth: a segment that is shorter has more digits than the words of its depth
 QUAD_LIMIT = mp.mpf(2) ** (QUAD_ACC_WIDTH - 2) - mp.mpf(2) ** (OPERAND_SHIFT + 1)  # |accumulator| below 2^62
 QUADRIC_LIMIT = mp.mpf(2) ** 60  # |Q3| alone: 6*Q3 fits 64 bits
 QUARTIC_LIMIT = mp.mpf(2) ** 59  # |Q3| beside a product below 2^58: 6*(2^58 + 2^59) fits 64 bits
@@ -253,7 +254,8 @@ def _coordinate_words(scene, surface, index, h, e, low, high, cut, columns, rows
             for y in (0, rows)
         ]
         largest = max(abs(v) for v in ends)
-        exponent = max(0, int(mp.ceil(mp.log(2 * largest / (limit * half), 2)))) if cut[axis] else 0
+        cuts = cut[axis] and largest
+        exponent = max(0, int(mp.ceil(mp.log(2 * largest / (limit * half), 2)))) if cuts else 0
         if exponent > MAX_BOX:
             raise SceneError(
                 f"{scene.path}: surface[{index}] ({surface.type}).clip: found a box whose side {'xyz'[axis]} is less "
@@ -317,11 +319,16 @@ def _view(camera, surface):
     if seen is None:
         return None
     right, up, (near, far) = (
-        (max(least, a - (b - a) * MARGIN), min(most, b + (b - a) * MARGIN))
-        for (least, most), (a, b) in zip(bounds, seen, strict=True)
+        (max(least, a - _more(a, b, floor)), min(most, b + _more(a, b, floor)))
+        for (least, most), (a, b), floor in zip(bounds, seen, (0, 0, far * THINNEST), strict=True)
     )
     rect = _rectangle(camera, right, up)
     return None if rect is None else (matrix, low, high, cut, rect, near, far)
+
+
+def _more(a, b, floor):
+    """By how much a range is widened on both sides: a part of it, and until it is ``floor`` wide."""
+    return (b - a) * MARGIN + max(mp.mpf(0), floor - (b - a)) / 2 if mp.isfinite(b - a) else mp.inf
 
 
 def _seen_from(camera, surface, matrix, low, high):

@@ -10,7 +10,7 @@ can reach within cell and strip is bounded by duality: for any m
 and the best m is 0 or one of o_i / G_i. E falls with the square of the cell, so cells of 1/32 of the box give bounds to
 about a pixel of a thousand. A spiral lies within balls about its centre curve. Source: docs/method.md, "Set-up".
 
-Float64 with a margin for its rounding; nothing here need be exact, only outside.
+Float64 with margins for its rounding; nothing here need be exact, only outside.
 """
 
 from typing import NamedTuple
@@ -22,7 +22,9 @@ from .surfaces import Form, form
 
 LEVELS = 5  # halvings of the box along each axis
 ROUNDING = 2.0**-36  # relative; a value has some 50 terms, each rounded to 2^-53
+PROJECTION = 2.0**-48  # relative, of a camera coordinate: four terms, and coordinates that were rounded to float64
 BALLS = 256  # in a turn of a spiral
+NOWHERE = (-np.inf, np.inf)
 
 
 class Extent(NamedTuple):
@@ -151,12 +153,27 @@ def spiral_extent(spiral: Spiral, matrix, eye) -> Extent | None:
     return Extent(slopes(x), slopes(y), ((z - size).min(), (z + size).max()))
 
 
+def _widened(found: Extent, low, high, matrix, eye) -> Extent:
+    """With what the projection of points within the box may be off by."""
+    off = PROJECTION * (abs(matrix) @ np.maximum(abs(low), abs(high)) + abs(eye))
+    corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1)
+    near = (matrix[2] @ corners + eye[2]).min() - off[2]
+    if near <= 0:
+        return Extent(NOWHERE, NOWHERE, NOWHERE)
+    slopes = [
+        (least - (off[i] + off[2] * abs(least)) / near, most + (off[i] + off[2] * abs(most)) / near)
+        for i, (least, most) in enumerate((found.right, found.up))
+    ]
+    return Extent(*slopes, (found.depth[0] - off[2], found.depth[1] + off[2]))
+
+
 def extent(surface: Surface, low, high, matrix, eye) -> Extent | None:
     """Of a surface within its box, all of which is before the camera; None if nothing of it is there.
 
-    Arguments as those of :func:`algebraic_extent`.
+    Infinite where nothing is known. Arguments as those of :func:`algebraic_extent`.
     """
-    if surface.type != "spiral":
-        return algebraic_extent(form(surface), low, high, matrix, eye)
-    nowhere = (-np.inf, np.inf)
-    return spiral_extent(surface, matrix, eye) or Extent(nowhere, nowhere, nowhere)
+    if surface.type == "spiral":
+        found = spiral_extent(surface, matrix, eye) or Extent(NOWHERE, NOWHERE, NOWHERE)
+    else:
+        found = algebraic_extent(form(surface), low, high, matrix, eye)
+    return found and _widened(found, low, high, matrix, eye)

@@ -6,6 +6,7 @@ import io
 import json
 from dataclasses import dataclass, field
 from pathlib import Path
+from zipfile import BadZipFile
 
 import matplotlib
 import numpy as np
@@ -121,7 +122,7 @@ def card(folder: Path) -> Card:
             views.append(View(label, data_address(rgb), legend))
         rows = _figures(figures)
         size = f"{figures['width']}×{figures['height']}"
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, EOFError, BadZipFile, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ImageError(f"{folder}: found no output of raydix verify ({error}); make render writes one") from None
     equal = not (differing["hit_bits"] or differing["image_bits"])
     verdict = (

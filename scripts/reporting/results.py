@@ -50,7 +50,10 @@ def read_run(path: Path) -> Run:
     for case in suite.iter("testcase"):
         name = case.get("classname", "").rpartition(".")[2].removeprefix("test_")
         module = modules.setdefault(name, Module(name))
-        module.seconds += float(case.get("time", 0))
+        try:
+            module.seconds += float(case.get("time", 0))
+        except ValueError:
+            raise ResultsError(f"{path}: found the time {case.get('time')!r}; allowed: seconds") from None
         wrong = [case.find(kind) for kind in ("failure", "error") if case.find(kind) is not None]
         if wrong:
             module.failed += 1

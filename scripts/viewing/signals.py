@@ -70,7 +70,7 @@ def read_signals(wave: Path) -> list[Signal]:
     """All variables of a VCD file. Raises OSError, and ValueError where there is none."""
     try:
         found = list(_variables(wave))
-    except VCDParseError as error:
+    except (VCDParseError, IndexError) as error:
         raise ValueError(f"found no waveform; allowed: a VCD file ({error})") from None
     if not found:
         raise ValueError("found no signals; allowed: a waveform (VCD)")
