@@ -83,10 +83,10 @@ def test_pixels_equal_golden(config, scene, size):
 @pytest.mark.long
 @pytest.mark.parametrize(("scene", "rings"), [("torus", 4), ("hyperboloid", 3)])
 def test_full_hd(scene, rings):
-    """1920x1080: every pixel, work done at most 1.1 times what is needed, and few more clocks than the slowest part takes.
+    """1920x1080: every pixel, at most 1.1 times the work that is needed, few more clocks than the slowest part takes.
 
     Needed are K steps for each visible hit and one for each other ray that was looked at in a ring. The walk takes a
-    clock for a pixel of the rectangle, a ring one for a step, the reading of lines one for a beat and for a further hit.
+    clock for a pixel of the rectangle, a ring one for a step, the reading of a line one for a beat and a further hit.
     """
     loaded = spirals.load(scene, 1920, 1080)
     config = Config(3, 8, units=1, rings=rings, rules="certified", **families(loaded), **frame_parameters(loaded, 2))
