@@ -128,7 +128,7 @@ def test_signal(scene, tmp_path):
     out = tmp_path / "out"
     command = [Path(sys.executable).parent / "raydix", "render", scene, "--size", "64x48", "--frames", "--out", out]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    limit = time.monotonic() + 120
+    limit = time.monotonic() + 400
     while not (out / "round-002.png").exists():
         assert process.poll() is None and time.monotonic() < limit
         time.sleep(0.05)
