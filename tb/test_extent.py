@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from raydix import compile, extent, spiral
-from raydix.compile import camera_of, clip_box, compile_scene
+from raydix.compile import PRECISION, camera_of, clip_box, compile_scene
 from raydix.config import Config
 from raydix.fit import families
 from raydix.golden import trace_golden
@@ -162,3 +162,23 @@ def test_thin_and_far(half, distance, offset, tmp_path, monkeypatch):
         frame = render_golden(scene, Config())
         hits.append((frame.surface >= 0).sum())
     assert hits[0] == hits[1] > 20
+
+
+@pytest.mark.parametrize("distance", [1e2, 1e5, 1e8])
+def test_rounding_of_the_projection(distance, tmp_path):
+    """The exact depth of a plate that faces the camera is within its bounds, which are a few ulp of it apart."""
+    for offset in (0.1, 0.3, 0.7, 1.1):
+        (tmp_path / "scene.toml").write_text(PLATE.format(offset, 2 * offset, distance + 0.3, 1.0, distance / 10))
+        scene = load_scene(tmp_path / "scene.toml")
+        with mp.workprec(PRECISION):
+            exact = mp.mpf(distance + 0.3) - mp.mpf(0.3)
+        least, most = extent.extent(scene.surfaces[0], *placed(scene)).depth
+        assert least < exact < most and most - least < 1e-9 * distance
+
+
+def test_least_depth(tmp_path):
+    """A plate has a segment of 1/256 of the depth of its box, as far as that has room."""
+    for half, wanted in ((1.0, 11 / 256), (1e-3, 2e-3)):
+        (tmp_path / "scene.toml").write_text(PLATE.format(0.1, 0.2, 10.3, half, 1.0))
+        (surface,) = compile_scene(load_scene(tmp_path / "scene.toml"), Config()).surfaces
+        assert surface.far - surface.near == pytest.approx(wanted, rel=2e-3)
