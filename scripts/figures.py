@@ -13,8 +13,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import matplotlib
 import numpy as np
+from matplotlib.figure import Figure
 
 from raydix.cells import subdivide
 from raydix.compile import camera_of, clip_box, compile_scene
@@ -25,9 +25,6 @@ from raydix.kernel import zeros
 from raydix.render import render_golden
 from raydix.scene import load_scene
 from raydix.trace_ray import follow
-
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 DARK, LIGHT, INK, RED = "#24406e", "#dbe6f6", "#1b1f27", "#c0392b"
@@ -51,7 +48,8 @@ def draw_step(scene, config: Config, out: Path) -> None:
     """The control polygon of a ray, and those of its cells: which may hold a root, and which is chosen."""
     whole, cells, candidates, pick = cells_of(scene, config, *PIXEL)
     degree, count, scale = len(whole) - 1, config.cells, abs(whole).max()
-    figure, (above, below) = pyplot.subplots(2, 1, figsize=(9, 6), sharex=True, layout="constrained")
+    figure = Figure(figsize=(9, 6), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True)
     above.plot(np.linspace(0, 1, degree + 1), whole / scale, "o--", color=DARK, linewidth=1, label="control points")
     above.set_title("the ray's segment: five control points, and the polynomial within their hull", fontsize=10)
     below.set_title("eight cells, by averages: only where signs differ can a root be; the first is taken", fontsize=10)
@@ -82,7 +80,6 @@ def draw_step(scene, config: Config, out: Path) -> None:
     for axes in (above, below):
         axes.set_ylabel("ΔR")
     figure.savefig(out, dpi=110)
-    pyplot.close(figure)
 
 
 def corners_on_screen(scene) -> tuple[np.ndarray, np.ndarray]:
@@ -103,7 +100,8 @@ def draw_rectangle(scene, config: Config, out: Path) -> None:
     scene = replace(scene, camera=scene.camera.model_copy(update={"vfov": WIDE}))
     frame = render_golden(scene, config)
     (left, top, right, bottom), (columns, rows) = frame.hits.compiled.surfaces[0].rect, corners_on_screen(scene)
-    figure, axes = pyplot.subplots(figsize=(6.4, 4.8), layout="constrained")
+    figure = Figure(figsize=(6.4, 4.8), layout="constrained")
+    axes = figure.subplots()
     axes.imshow(frame.rgb, extent=(0, scene.camera.width, scene.camera.height, 0))
     box = columns.min(), rows.min(), columns.max(), rows.max()
     for (x0, y0, x1, y1), color, style, label in (
@@ -116,7 +114,6 @@ def draw_rectangle(scene, config: Config, out: Path) -> None:
     axes.legend(loc="lower right", fontsize=8, title="rectangle", title_fontsize=8, facecolor="#888888")
     axes.set_axis_off()
     figure.savefig(out, dpi=110)
-    pyplot.close(figure)
 
 
 def main():

@@ -2,6 +2,7 @@
 """Bounds of what is to be seen of a surface: no point of it is outside of them, and they are close."""
 
 import random
+from functools import partial
 from pathlib import Path
 
 import mpmath as mp
@@ -34,11 +35,7 @@ def placed(scene):
 
 def points_on(surface, low, high, rng):
     """Points of the surface on random lines through its box: where F changes its sign between neighbouring places."""
-    if surface.type == "spiral":
-        f = lambda points: spiral.value(surface, points)  # noqa: E731
-    else:
-        shape = form(surface)
-        f = lambda points: value(shape, points)  # noqa: E731
+    f = partial(spiral.value, surface) if surface.type == "spiral" else partial(value, form(surface))
     ends = rng.uniform(low, high, (2, LINES, 3))
     t = np.linspace(0, 1, PLACES)
     points = ends[0, :, None] + t[:, None] * (ends[1] - ends[0])[:, None]

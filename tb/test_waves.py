@@ -85,8 +85,8 @@ def test_files(wave):
         "thing.png",
     ]
     save = wave.with_suffix(".gtkw").read_text()
-    assert "@40000024\n[fpshift_count] 24\n+{item_i/t} rdx_thing.item_i.t[23:0]\n" in save  # decimal, right, shifted
-    assert "@40000424\n[fpshift_count] 30\n+{point_i[1]} rdx_thing.point_i[1][31:0]\n" in save  # signed, too
+    assert "[fpshift_count] 24\n@40000024\n+{item_i/t} rdx_thing.item_i.t[23:0]\n" in save  # decimal, right, shifted
+    assert "[fpshift_count] 30\n@40000420\n+{point_i[1]} rdx_thing.point_i[1][31:0]\n" in save  # signed, too
     assert re.findall("^-(.*)", save, re.M)[::2] == [
         "clock",
         "inputs",

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what a step unit gave back from a waveform of the RTL."""
+"""Reads waveforms of the RTL: what is in one, and what a step unit gave back."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from vcd.reader import TokenKind, tokenize
+from vcd.reader import TokenKind, VarDecl, tokenize
 
 from .trace_ray import NAMES
 
@@ -28,15 +29,9 @@ def signed(value: int, width: int) -> int:
     return value - (1 << width) if value >> (width - 1) else value
 
 
-def step_outputs(wave: Path) -> list[Output]:
-    """Every step of the only ray of a simulation, from a waveform (VCD) of ``rdx_core`` with one unit in one ring.
-
-    Raises ValueError where the waveform has no step unit.
-    """
+def variables(wave: Path) -> Iterator[tuple[tuple[str, ...], VarDecl]]:
+    """Scopes and declaration of every variable of a waveform (VCD). Raises OSError, VCDParseError, IndexError."""
     scopes: list[str] = []
-    names: dict[str, tuple[str, int]] = {}  # code: signal of the step unit, its width
-    values: dict[str, int] = {}
-    found: list[Output] = []
     with wave.open("rb") as file:
         for token in tokenize(file):
             if token.kind is TokenKind.SCOPE:
@@ -44,10 +39,28 @@ def step_outputs(wave: Path) -> list[Output]:
             elif token.kind is TokenKind.UPSCOPE:
                 scopes.pop()
             elif token.kind is TokenKind.VAR:
-                _, inside, signal = ".".join([*scopes, token.var.reference]).partition(STEP)
-                if inside and signal.startswith(("control_o.", "segment_o.")):
-                    names[token.var.id_code] = signal, token.var.size
-            elif token.kind is TokenKind.CHANGE_TIME:
+                yield tuple(scopes), token.var
+            elif token.kind is TokenKind.ENDDEFINITIONS:
+                return
+
+
+def step_outputs(wave: Path) -> list[Output]:
+    """Every step of the only ray of a simulation, from a waveform (VCD) of ``rdx_core`` with one unit in one ring.
+
+    Raises ValueError where the waveform has no step unit.
+    """
+    names: dict[str, tuple[str, int]] = {}  # code: signal of the step unit, its width
+    for scopes, declared in variables(wave):
+        _, inside, signal = ".".join([*scopes, declared.reference]).partition(STEP)
+        if inside and signal.startswith(("control_o.", "segment_o.")):
+            names[declared.id_code] = signal, declared.size
+    if not names:
+        raise ValueError(f"{wave}: found no step unit; allowed: a waveform of rdx_core")
+    values: dict[str, int] = {}
+    found: list[Output] = []
+    with wave.open("rb") as file:
+        for token in tokenize(file):
+            if token.kind is TokenKind.CHANGE_TIME:
                 _look(values, found)
             elif token.kind in (TokenKind.CHANGE_SCALAR, TokenKind.CHANGE_VECTOR):
                 change = token.data
@@ -55,8 +68,6 @@ def step_outputs(wave: Path) -> list[Output]:
                     signal, width = names[change.id_code]
                     value = int(change.value) if str(change.value) in "01" or isinstance(change.value, int) else 0
                     values[signal] = signed(value, width) if signal.startswith("segment_o.") else value
-    if not names:
-        raise ValueError(f"{wave}: found no step unit; allowed: a waveform of rdx_core")
     _look(values, found)
     return found
 

@@ -3,12 +3,9 @@
 
 from pathlib import Path
 
-import matplotlib
+from matplotlib.figure import Figure
 
 from .signals import Group, Signal, changes
-
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
 
 ROWS = 28  # most signals of a picture
 CHARACTER = 0.0047  # width of one, as part of the time axis
@@ -63,7 +60,8 @@ def draw(wave: Path, groups: list[Group], start: int, until: int, period: int, t
     """Write a PNG: a row for each signal, levels of single bits, boxes with values of the others."""
     signals = important(groups)
     known = history(wave, signals, until)
-    figure, axes = pyplot.subplots(figsize=(16, 0.36 * len(signals) + 1.2), layout="constrained")
+    figure = Figure(figsize=(16, 0.36 * len(signals) + 1.2), layout="constrained")
+    axes = figure.subplots()
     for row, signal in enumerate(signals):
         base = len(signals) - 1 - row
         events = [e for e in known[signal.code] if e[0] <= until]
@@ -88,4 +86,3 @@ def draw(wave: Path, groups: list[Group], start: int, until: int, period: int, t
     axes.spines[["top", "right", "left"]].set_visible(False)
     axes.tick_params(axis="y", length=0)
     figure.savefig(out, dpi=110)
-    pyplot.close(figure)

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from vcd.reader import TokenKind, VCDParseError, tokenize
+from vcd.reader import TokenKind, VarDecl, VCDParseError, tokenize
+
+from raydix.waves import variables
 
 from .formats import Number, number_of
 
@@ -69,7 +71,7 @@ class Group:
 def read_signals(wave: Path) -> list[Signal]:
     """All variables of a VCD file. Raises OSError, and ValueError where there is none."""
     try:
-        found = list(_variables(wave))
+        found = [_signal(*variable) for variable in variables(wave)]
     except (VCDParseError, IndexError) as error:
         raise ValueError(f"found no waveform; allowed: a VCD file ({error})") from None
     if not found:
@@ -77,23 +79,13 @@ def read_signals(wave: Path) -> list[Signal]:
     return found
 
 
-def _variables(wave: Path) -> Iterator[Signal]:
-    scopes: list[str] = []
-    with wave.open("rb") as file:
-        for token in tokenize(file):
-            if token.kind is TokenKind.SCOPE:
-                scopes.append(token.scope.ident)
-            elif token.kind is TokenKind.UPSCOPE:
-                scopes.pop()
-            elif token.kind is TokenKind.VAR:
-                inside = 0
-                while inside < len(scopes) and INSTANCE.fullmatch(scopes[inside]):
-                    inside += 1
-                index = token.var.bit_index  # of an array of bits; a vector has two
-                name = token.var.reference + (f"[{index}]" if isinstance(index, int) else "")
-                yield Signal(tuple(scopes), name, token.var.size, token.var.id_code, inside)
-            elif token.kind is TokenKind.ENDDEFINITIONS:
-                return
+def _signal(scopes: tuple[str, ...], declared: VarDecl) -> Signal:
+    inside = 0
+    while inside < len(scopes) and INSTANCE.fullmatch(scopes[inside]):
+        inside += 1
+    index = declared.bit_index  # of an array of bits; a vector has two
+    name = declared.reference + (f"[{index}]" if isinstance(index, int) else "")
+    return Signal(scopes, name, declared.size, declared.id_code, inside)
 
 
 def stage_of(root: str) -> str:

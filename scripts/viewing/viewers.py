@@ -12,6 +12,7 @@ from vcd.gtkw import GTKWFlag, GTKWSave
 from .signals import Group, Signal, changes
 
 CLOCK_PIXELS = 40  # width of a clock where GTKWave opens
+FRAME = 200  # pixels that its zoom gives the time of, as a power of two
 
 
 def gtkwave_name(signal: Signal) -> str:
@@ -27,7 +28,7 @@ def write_gtkwave(file: TextIO, wave: Path, groups: list[Group], start: int, per
     save = GTKWSave(file)
     save.dumpfile(str(wave))
     save.timestart(start)
-    save.zoom_markers(-log2(period / CLOCK_PIXELS))
+    save.zoom_markers(-log2(period * FRAME / CLOCK_PIXELS))
     save.signals_width(300)
     for group in groups:
         with save.group(group.name, closed=group.name.startswith(("u_", "gen_"))):
@@ -36,9 +37,9 @@ def write_gtkwave(file: TextIO, wave: Path, groups: list[Group], start: int, per
                 if number is None:
                     save.trace(gtkwave_name(signal), alias=alias, datafmt="hex" if signal.width > 1 else "bin")
                     continue
-                flags = GTKWFlag.dec | GTKWFlag.rjustify | GTKWFlag.fpdecshift
-                save._set_flags(flags | GTKWFlag.signed if number.signed else flags)  # noqa: SLF001
-                file.write(f"[fpshift_count] {number.fraction}\n+{{{alias}}} {gtkwave_name(signal)}\n")
+                file.write(f"[fpshift_count] {number.fraction}\n")  # holds for the trace that follows
+                form = "signed" if number.signed else "dec"
+                save.trace(gtkwave_name(signal), alias=alias, datafmt=form, extraflags=GTKWFlag.fpdecshift)
 
 
 def write_surfer(file: TextIO, wave: Path, groups: list[Group]) -> None:
