@@ -108,7 +108,8 @@ SWEEPS = (
     Sweep("quadric", (2,), others={"units": (2,)}),
     Sweep("quadric", (3,), others={"rings": (3,)}),
     Sweep("quartic", (3,), others={"rings": (2,)}),
-    Sweep("spiral", (1, 2), others={"lanes": (1,)}),
+    Sweep("spiral", (2,), others={"lanes": (1, 2)}),
+    Sweep("spiral", (1, 3), others={"lanes": (1,)}),
 )
 
 
