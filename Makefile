@@ -51,7 +51,7 @@ formal: $(READY) ## machine proofs of the RTL, of POINT= or all of them, each al
 coverage: $(READY) ## blocks, toggled bits and functional bins that each module's own test covers (T=<module> JOBS=2 ARGS=--write)
 	@$(BIN)/python scripts/cover.py $(MODULE) --jobs $(JOBS) $(ARGS)
 
-lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, generated files
+lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, mypy, generated files
 	@$(BIN)/python -m pytest -q tb/test_lint.py
 
 formats: $(READY) ## write the constants of rtl/rdx_pkg.sv and docs/number-formats.md from their one table

@@ -4,8 +4,9 @@
 
     scripts/benchmark.py                      torus, hyperboloid, spiral, sphere, cyclide
     scripts/benchmark.py SCENE --size 320x240 --repeats 9
-    scripts/benchmark.py --full --rtl         every scene with one surface, and the processor's clocks
-    scripts/benchmark.py --write              renew docs/benchmarks.md, its pictures and its baseline, too
+    scripts/benchmark.py --full --rtl         every scene with one surface, and the engines' clocks
+    scripts/benchmark.py --write              renew docs/benchmarks.md, its pictures and its baseline, too; with --full
+                                              its table of every scene, with --kept from the last run
     scripts/benchmark.py --check              compare ratios with the baseline; exit status 1 where one is lost
 
 One thread each. All of a scene take turns, so noise hits everything, and a ratio is one of times of the same turn.
@@ -21,19 +22,17 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import Progress
-
 from benchmarks.clocks import COLUMNS as CLOCKS
 from benchmarks.clocks import clocks, placed
 from benchmarks.guard import lost
 from benchmarks.plot import plot
 from benchmarks.rows import RAYDIX, Row, measurable, measure
-from benchmarks.tables import BEATEN, LEFT, TABLE, beaten, cells
+from benchmarks.tables import BEATEN, EVERY, LEFT, TABLE, beaten, cells, glance
 from raydix.blocks import show_table, write_table
 from raydix.cli import image_size
 from raydix.config import ConfigError
 from raydix.image import write_files
+from raydix.progress import bars
 from raydix.rtl import RtlError
 from raydix.scene import SceneError, load_scene
 
@@ -63,6 +62,21 @@ def save(rows: Sequence[Row], clock_rows, out: Path) -> None:
             plot([r for r in rows if r.scene == scene], RAYDIX, out / f"{scene}.{kind}")
 
 
+def restore(out: Path) -> tuple[list[Row], list]:
+    """What :func:`save` has written to the folder. Raises ValueError where there is nothing of this form."""
+    path, clock_path = out / "benchmarks.json", out / "clocks.json"
+    try:
+        rows = [Row(**row) for row in json.loads(path.read_text())]
+        return rows, json.loads(clock_path.read_text()) if clock_path.exists() else []
+    except (OSError, TypeError, ValueError):
+        raise ValueError(f"{path}: found no rows of this form; allowed: those of a run") from None
+
+
+def publish_every(rows: Sequence[Row], clock_rows) -> None:
+    """The page's table of every scene."""
+    write_table(PAGE, "every", EVERY, glance(rows, clock_rows))
+
+
 def publish(rows: Sequence[Row], clock_rows) -> None:
     """The page, its pictures, its baseline."""
     if clock_rows:
@@ -87,6 +101,7 @@ def parse(arguments):
     parser.add_argument("--rtl", action="store_true", help="clocks of the engines, too")
     parser.add_argument("--only-rtl", action="store_true", help="clocks of the engines, no times")
     parser.add_argument("--out", type=Path, default=OUT, help="folder (default: build/bench)")
+    parser.add_argument("--kept", action="store_true", help="measure nothing; show what the last run kept")
     parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md, its pictures and the baseline")
     parser.add_argument("--check", action="store_true", help="compare with the baseline")
     options = parser.parse_args(arguments)
@@ -94,7 +109,11 @@ def parse(arguments):
         parser.error("--repeats: found less than 1; allowed: 1 or more")
     if options.check and options.only_rtl:
         parser.error("--check: found with --only-rtl; allowed: with times, whose ratios it compares")
-    if options.write and (options.scene or options.full or options.check or options.size != (None, None)):
+    if options.kept and (options.scene or options.check or options.rtl or options.only_rtl):
+        parser.error("--kept: found with something to measure; allowed: with --full, --out and --write")
+    if options.kept and options.write and not options.full:
+        parser.error("--kept: found with --write; allowed: with --full, for the table of every scene")
+    if options.write and (options.scene or options.check or options.size != (None, None)):
         parser.error("--write: found with other scenes, another size or --check; allowed: as the page has it")
     return options
 
@@ -126,22 +145,31 @@ def main(arguments=None) -> int:
     options = parse(arguments)
     rows, clock_rows, missing = [], [], []
     try:
-        scenes = scenes_of(options)
+        scenes = [] if options.kept else scenes_of(options)
+        if options.kept:
+            rows, clock_rows = restore(options.out)
         before = baseline() if options.check else []
         if options.rtl or options.only_rtl:
             placed()
-        with Progress(console=Console(stderr=True), transient=True) as bar:
-            task = bar.add_task("", total=None)
+        with bars() as bar:
+            hardware = options.rtl or options.only_rtl
+            turns = 0 if options.only_rtl else 1 + options.repeats  # the first time compiles
+            task = bar.add_task("turns", total=len(scenes) * (turns + hardware))
+
+            def tick(text: str, turns: int) -> None:
+                bar.update(task, description=text, advance=turns)
+
             for scene in scenes:
                 if not options.only_rtl:
-                    some, absent = measure(scene, options.repeats, lambda text: bar.update(task, description=text))
+                    some, absent = measure(scene, options.repeats, tick)
                     rows, missing = rows + some, missing + absent
-                if options.rtl or options.only_rtl:
-                    bar.update(task, description=f"{scene.name}: RTL")
+                if hardware:
+                    tick(f"{scene.name}: RTL", 0)
                     clock_rows += clocks(scene)
+                    tick(f"{scene.name}: RTL", 1)
                 save(rows, clock_rows, options.out)
         if options.write:
-            publish(rows, clock_rows)
+            (publish_every if options.full else publish)(rows, clock_rows)
     except (SceneError, ConfigError, RtlError, RuntimeError, ValueError, OSError) as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2
@@ -153,6 +181,7 @@ def main(arguments=None) -> int:
     if rows:
         show_table("Run time against error", TABLE, [cells(row) for row in rows], LEFT, 200)
         show_table("Faster than the certified rule at no larger error", BEATEN, beaten(rows), LEFT, 200)
+        show_table("Least time over the golden model's at the same error", EVERY, glance(rows, clock_rows), LEFT, 200)
     if clock_rows:
         show_table("The engines, at the clock that they were placed at", CLOCKS, clock_rows, CLOCKS[:2], 200)
     if options.check:

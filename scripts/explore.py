@@ -23,15 +23,13 @@ from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
 from exploration.designs import SCENE_OF, Design, all_designs
 from exploration.measure import TOOLS, key, measure
 from exploration.pareto import FRONTS, Point, front, point_of, recommended
 from exploration.plot import plot
 from raydix.blocks import show_table, write_table
 from raydix.config import ConfigError
+from raydix.progress import bars
 from synth import SynthError, keep
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -87,8 +85,7 @@ def sweep(designs: list[Design], options) -> tuple[dict[Design, dict], list[str]
     kept = {design: options.out / f"{name}.json" for design, name in names.items()}
     missing = [] if options.kept else [design for design in designs if not kept[design].exists()]
     failed = []
-    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bar:
+    with bars() as bar:
         task = bar.add_task("design points", total=len(designs), completed=len(designs) - len(missing))
         if missing:
             with executor(options.scheduler, options.jobs) as pool:

@@ -32,6 +32,7 @@ from rich.table import Table
 from formal_proofs import PROOFS
 from raydix.blocks import read_table, write_table
 from raydix.files import RTL, named, sources, top_modules, top_sources
+from raydix.progress import track
 from synth import ROOT, YOSYS, SynthError, digest, keep, package
 
 HARNESSES = ROOT / "tb" / "formal"
@@ -347,7 +348,7 @@ def main(arguments=None):
         return 2
     chosen, rows, wrong = options.name or list(PROOFS), [], []
     try:
-        for name in chosen:
+        for name in track(chosen, "proofs"):
             rows.append(result := run(name))
             wrong += [f"{name}: {fault}" for fault in faults(result)]
     except (SynthError, OSError) as error:

@@ -10,7 +10,6 @@ from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -19,6 +18,7 @@ sys.path.insert(0, str(ROOT / "tb"))
 from mutation import campaign as work  # noqa: E402  (needs tb/ on the path)
 from mutation import schema, sites  # noqa: E402
 from raydix.blocks import read_table, write_table  # noqa: E402
+from raydix.progress import bars  # noqa: E402
 
 EQUIVALENT = ROOT / "tb" / "mutants.toml"
 PAGE = ROOT / "docs" / "mutants.md"
@@ -139,8 +139,7 @@ def main():
     rows, bad, broken = [], 0, []
     try:
         known = equivalents()
-        columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
-        with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+        with bars(console) as progress:
             for name in names:
                 if args.list:
                     for mutant in work.prepare(name)[1]:

@@ -21,8 +21,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from matplotlib.figure import Figure
-from rich.console import Console
-from rich.progress import Progress
 
 from raydix.blocks import show_table, write_table
 from raydix.compile import compile_scene
@@ -30,6 +28,7 @@ from raydix.config import Config, ConfigError
 from raydix.fit import families, frame_parameters
 from raydix.golden import trace_golden
 from raydix.processor import run_frames
+from raydix.progress import track
 from raydix.rtl import RtlError
 from raydix.scene import Scene, SceneError, load_scene
 from raydix.shade import compose
@@ -236,9 +235,8 @@ def main(arguments=None) -> int:
     options = parse(arguments)
     kinds, measured = options.kind or KINDS, []
     try:
-        with tempfile.TemporaryDirectory() as folder, Progress(console=Console(stderr=True), transient=True) as bar:
-            every = list(tasks(kinds, Path(folder)))
-            for task in bar.track(every, description="frames"):
+        with tempfile.TemporaryDirectory() as folder:
+            for task in track(list(tasks(kinds, Path(folder))), "frames"):
                 measured.append((task, *measure(task, options.repeats, options.rtl)))
         grown = [row(*m) for m in measured if m[0].kind != "unneeded"]
         lost = [loses(*m) for m in measured if m[0].kind == "unneeded"]

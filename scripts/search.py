@@ -7,8 +7,6 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.progress import Progress
 
 from raydix import stress, stress_spirals
 from raydix.blocks import show_table, write_table
@@ -17,6 +15,7 @@ from raydix.compile_spiral import Oversize
 from raydix.config import Config
 from raydix.formats import STEPS_MAX
 from raydix.oracle_spiral import spiral_chord_roots
+from raydix.progress import bars
 from raydix.segments import Segments, trace_segments, whole
 from raydix.stress_polynomials import fitted
 
@@ -210,7 +209,7 @@ def main() -> int:
     parser.add_argument("--write", action="store_true", help="renew tb/cases.toml and the table in docs/stress.md")
     args = parser.parse_args()
     config, rows, items, failed = Config(units=1), [], {}, False
-    with Progress(console=Console(stderr=True)) as progress:
+    with bars() as progress:
         for name, score in (("error", error_score), ("steps", steps_score)):
             bar = progress.add_task(name, total=args.generations)
             b, s, begin = evolve(

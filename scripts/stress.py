@@ -10,8 +10,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from rich.console import Console
-from rich.progress import Progress
 
 from raydix import stress, stress_polynomials, stress_spirals
 from raydix.blocks import show_table, write_table
@@ -20,6 +18,7 @@ from raydix.compile_spiral import Oversize
 from raydix.config import Config
 from raydix.exact import changes
 from raydix.oracle_spiral import spiral_chord_roots
+from raydix.progress import bars
 from raydix.segments import trace_segments
 from raydix.stress_plot import Case, plot_cases
 
@@ -156,10 +155,10 @@ def jobs(rays: int, seed: int, names, config: Config, shares=True) -> list[Job]:
     return made
 
 
-def collect(todo: list[Job], processes: int, quiet=False) -> dict:
+def collect(todo: list[Job], processes: int) -> dict:
     """Run all batches; (category, rule) -> joined results."""
     joined = defaultdict(nothing)
-    with Progress(console=Console(stderr=True), disable=quiet) as progress:
+    with bars() as progress:
         bar = progress.add_task("rays", total=sum(j.count for j in todo))
         size = {job.name: 0 for job in todo}
 

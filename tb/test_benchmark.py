@@ -98,6 +98,29 @@ def test_who_is_faster_at_no_larger_error(script):
     ]
 
 
+def test_every_scene_at_a_glance(script):
+    """The least ratio of a group, over the fastest setting as good; others in brackets; the fastest engine."""
+    own = [
+        row(script, script.RAYDIX, "certified, n1 3, K 8", [2.0] * 3, 1.0, p999=1e-7),
+        row(script, script.RAYDIX, "certified, n1 3, K 4", [1.0] * 3, 0.5, p999=1e-4),
+    ]
+    others = [
+        row(script, "closed form", "", [1.5] * 3, 0.75, p999=1e-12),
+        row(script, "64 samples, bisection", "12", [1.5] * 3, 0.75, p999=1e-3),
+        row(script, "64 samples, Newton", "12", [3.0] * 3, 1.5, p999=1e-6),
+        row(script, "64 samples, Newton", "16", [5.0] * 3, 2.5, p999=1e-12),
+        row(script, "64 samples, regula falsi", "16", [4.0] * 3, 2.0, p999=1e-11),
+    ]
+    engines = [[scene, "", "", "", "", "", time, *[""] * 4] for scene, time in (("made", "10.5"), ("made", "9.80"))]
+    (line,) = script.glance(own + others, [*engines, ["other", *engines[0][1:6], "1.00", *[""] * 4]])
+    found = dict(zip(script.EVERY, line, strict=True))
+    assert found.pop("scene") == "made" and found.pop("ms") == "2000.0" and found.pop("99.9 % error") == "1.0e-07"
+    given = {name: text for name, text in found.items() if text}
+    wanted = {"silhouette": "0", "closed form": "(0.75)", "samples": "1.50 (2.00)", "placed engine, ms": "9.80"}
+    assert given == wanted
+    assert script.glance(own, [])[0][-1] == ""
+
+
 @pytest.mark.parametrize("slower, bad", [(0.8, False), (1.09, False), (1.11, True), (1.3, True)])
 def test_guard(script, slower, bad):
     """Without noise the golden model slower by a tenth is the limit, however fast the machine is.
@@ -146,6 +169,13 @@ def test_command(script, monkeypatch, tmp_path, capsys):
     assert "certified, n1 4, K 6" in said.out and "Bézier clipping" in said.out
     assert len((out / "benchmarks.csv").read_text().splitlines()) == len(rows) + 1
     assert (out / "sphere.png").stat().st_size > 10_000 and "<svg" in (out / "sphere.svg").read_text()
+    page = tmp_path / "page.md"  # what was kept makes the same tables, and the page's table of every scene
+    page.write_text("<!-- BEGIN generated: every -->\n<!-- END generated: every -->\n")
+    monkeypatch.setattr(sys.modules["benchmark"], "PAGE", page)
+    assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 0
+    assert capsys.readouterr().out == said.out
+    (line,) = (line for line in page.read_text().splitlines() if line.startswith("| sphere"))
+    assert line.split("|")[2].strip() == f"{1e3 * np.median(reference['seconds']):.1f}"
 
 
 @pytest.mark.parametrize("scene, words", [("gallery", "allowed: one picture of one"), ("nowhere", "nowhere.toml")])
@@ -173,6 +203,8 @@ def test_transparent_surface_is_refused(script, tmp_path, capsys):
         (["--repeats", "0"], "allowed: 1 or more"),
         (["--write", "--check"], "allowed: as the page has it"),
         (["torus.toml", "--write"], "allowed: as the page has it"),
+        (["--kept", "--check"], "allowed: with --full, --out and --write"),
+        (["--kept", "--write"], "allowed: with --full"),
     ],
 )
 def test_bad_arguments(script, capsys, arguments, words):
@@ -180,6 +212,15 @@ def test_bad_arguments(script, capsys, arguments, words):
     with pytest.raises(SystemExit) as ended:
         script.main(arguments)
     assert ended.value.code == 2 and words in capsys.readouterr().err
+
+
+def test_nothing_kept(script, tmp_path, capsys):
+    """What is kept is asked for where nothing is, or something else: status 2 and a line."""
+    for text in (None, "[", '[{"scene": "sphere"}]'):
+        if text:
+            (tmp_path / "benchmarks.json").write_text(text)
+        assert script.main(["--kept", "--out", str(tmp_path)]) == 2
+        assert "benchmarks.json: found no rows of this form" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option, name", [("--rtl", "PLACED"), ("--check", "BASELINE")])

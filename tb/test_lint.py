@@ -119,6 +119,11 @@ def test_verilator_bins(top):
     assert "%Warning" not in text
 
 
+def test_mypy():
+    """The model's types agree, as far as mypy can tell."""
+    check(sys.executable, "-m", "mypy", cwd=ROOT)
+
+
 def test_no_waivers():
     """No lint rule is switched off anywhere in the RTL."""
     for path in RTL.iterdir():

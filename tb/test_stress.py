@@ -30,7 +30,7 @@ def joined():
     """Results of the subset, both rules, by (category, rule)."""
     todo = [script.Job(name, 0, 1500, REFERENCE, 11) for name in ALGEBRAIC]
     todo += [script.Job(name, 0, 300, REFERENCE, 11) for name in stress_spirals.CATEGORIES]
-    return script.collect(todo, 1, quiet=True)
+    return script.collect(todo, 1)
 
 
 @pytest.mark.parametrize("name", [*ALGEBRAIC, *stress_spirals.CATEGORIES])

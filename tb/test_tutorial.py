@@ -60,7 +60,8 @@ def test_the_page(clone):
     last = None
     assert PAGE.read_text().count("\n```") == 2 * len(blocks())
     assert len([b for b in blocks() if b.kind == "sh"]) >= 8
-    own = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}  # not make test's
+    # not told that make test runs them: their make would say so
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
     environment = {**own, "PYTHONPATH": str(clone / "model"), "COLUMNS": "120", "NO_COLOR": "1"}
     for block in blocks():
         if block.option == "file":

@@ -59,14 +59,15 @@ def random_spiral(dice: random.Random) -> Spiral:
             "any": {"pitch": pitch, "turns": turns, "R_growth": grow, "r_growth": swell},
         }[kind]
         try:
-            return Spiral(type="spiral", R=R, r=R * dice.uniform(0.03, 0.9), **keys)
+            return Spiral.model_validate({"type": "spiral", "R": R, "r": R * dice.uniform(0.03, 0.9), **keys})
         except ValidationError:
             continue
 
 
 def box_of(surface) -> tuple[np.ndarray, np.ndarray]:
     """Low and high corner (3) of the surface's box, float64."""
-    return tuple(np.array([float(v) for v in corner]) for corner in bounding_box(surface))
+    low, high = (np.array([float(v) for v in corner]) for corner in bounding_box(surface))
+    return low, high
 
 
 def chords_through(surface, count: int, seed: int, size: float = 1.2) -> tuple[np.ndarray, np.ndarray]:
@@ -110,8 +111,8 @@ def compile_chords(surface, h: np.ndarray, e: np.ndarray, config: Config) -> Com
     origin = np.array([0, 0, float(middle)])
     scale = factor * 2.0**COORD_FRAC
     integers = [np.rint((v - origin) * scale).astype(np.int64) for v in (h, e)]
-    exact = [v / scale + origin for v in integers]
-    return Compiled(words(form), np.concatenate(integers, axis=1), *exact, error, factors, middle)
+    h, e = (v / scale + origin for v in integers)
+    return Compiled(words(form), np.concatenate(integers, axis=1), h, e, error, factors, middle)
 
 
 def trace_spiral(compiled: Compiled, config: Config, roots: int = 1) -> Chords:

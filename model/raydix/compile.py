@@ -46,7 +46,7 @@ class CompiledSurface(NamedTuple):
     origin, unit   local coordinate of axis i = origin[i] + unit[i] * (s2p30 word / 2^30)
     """
 
-    index: int
+    index: int  # type: ignore[assignment]  # hides the tuple's method
     words: tuple[int, ...]
     rect: tuple[int, int, int, int]
     near: float

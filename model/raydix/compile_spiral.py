@@ -81,7 +81,7 @@ def _zones(tube: Tube, scale, length, n1) -> dict:
     """Bounds over a segment of scaled ``length``, and from which level on they hold, for each zone."""
     gain_length = gain(LENGTH_ITERATIONS)
     squared = gain(ANGLE_ITERATIONS) * gain_length
-    lists = {"lipschitz": [], "curvature": [], "from_level": []}
+    lists: dict[str, list] = {"lipschitz": [], "curvature": [], "from_level": []}
     for zone in range(ZONES):
         inner = mp.ldexp(1, zone + 1 - ZONES) if zone else mp.mpf(0)
         clear = tube.clear * scale
@@ -134,7 +134,7 @@ def _balls(tube: Tube, general: bool, scale, middle, across, squared) -> dict:
 
 def _faces(low, high, cut, middle, factors) -> dict:
     """The box; an axis that it does not cut has the whole range."""
-    faces = {"low": [], "high": []}
+    faces: dict[str, list] = {"low": [], "high": []}
     for i in range(3):
         least, most = mp.mpf(-2), 2 - mp.ldexp(1, -COORD_FRAC)
         if cut[i]:

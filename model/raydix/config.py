@@ -46,7 +46,7 @@ class Config:
     rules: str = "both"
     rule: str = "certified"
     vecsum: str = "none"
-    lanes: int | None = None  # J-1
+    lanes: int = None  # type: ignore[assignment]  # J-1 once it is made
     vector_units: int = 1
     rings: int = 1
     vector_rings: int = 1
@@ -55,7 +55,7 @@ class Config:
     layers: int = 4
     max_width: int = 1920
     beat: int = 1
-    k_stop: int | None = None  # K
+    k_stop: int = None  # type: ignore[assignment]  # K once it is made
 
     def __post_init__(self):
         def check(ok, name, allowed):

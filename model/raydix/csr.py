@@ -8,12 +8,12 @@ classes, where names, addresses and fields are all that a host or a test wants.
 import argparse
 import fcntl
 import hashlib
-import importlib.util
 import os
 import shutil
 import sys
 import tempfile
 from dataclasses import dataclass
+from importlib.machinery import SourceFileLoader
 from importlib.metadata import version
 from pathlib import Path
 from types import ModuleType
@@ -167,9 +167,9 @@ def generate() -> Generated:
 
 def address_map() -> ModuleType:
     """The generated Python map, imported: REGISTERS, WINDOWS, ERRORS."""
-    spec = importlib.util.spec_from_file_location("rdx_csr_map", generate().python)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    loader = SourceFileLoader("rdx_csr_map", str(generate().python))
+    module = ModuleType(loader.name)
+    loader.exec_module(module)
     return module
 
 

@@ -102,8 +102,8 @@ def word_errors(quadratics: list[Quadratic], linear: list[tuple], pixel: tuple[i
         for p, value in zip(quadratics, quads.tolist(), strict=True):
             exact = p.c00 + p.c10 * x + p.c01 * y + p.c20 * x * x + p.c11 * x * y + p.c02 * y * y
             out.append(("quadrics", word(x, y, True), float(abs(value - exact))))
-        for lane, p in enumerate(linear):
-            exact, end = p[0] + p[1] * x + p[2] * y, int(first[C + lane % 2 * 3 + lane // 2])
+        for lane, (start, across, down) in enumerate(linear):
+            exact, end = start + across * x + down * y, int(first[C + lane % 2 * 3 + lane // 2])
             off = float(abs(int(state[fdiff.VALUE, lane]) - exact))
             out.append(("coordinates", word(x, y, False), off))
             out.append(("ends", 1 + word(x, y, False) * 2.0**-cut, float(abs(end - mp.ldexp(exact, -cut)))))
@@ -148,7 +148,7 @@ def coordinate_error(start: int, stop: int, digits: int, config: Config) -> tupl
 def polynomial(b: list, t: Fraction) -> Fraction:
     """Value at t, exact."""
     n = len(b) - 1
-    return sum(comb(n, i) * int(c) * t**i * (1 - t) ** (n - i) for i, c in enumerate(b))
+    return sum((comb(n, i) * int(c) * t**i * (1 - t) ** (n - i) for i, c in enumerate(b)), Fraction(0))
 
 
 def indicator_errors(surface, points: np.ndarray, config: Config) -> list[tuple[float, float]]:

@@ -57,7 +57,7 @@ def roots(b):
     The zero polynomial has none.
     """
     p = power_basis(b)
-    found = []
+    found: list[Root] = []
     if p.degree() < 1:
         return found
     before, flint.ctx.prec = flint.ctx.prec, PRECISION
@@ -67,7 +67,8 @@ def roots(b):
                 continue
             place = _place(b, root.real)
             if place is not None:
-                found.append(Root(*place, multiplicity))
+                low, exact = place
+                found.append(Root(low, exact, multiplicity))
     finally:
         flint.ctx.prec = before
     return sorted(found)
@@ -111,7 +112,7 @@ def extrema(b):
     """Extrema inside of (0, 1): list of (t, value), float64 of enclosures good to 2**-64; value in units of ``b``."""
     n = len(b) - 1
     slope = [int(b[i + 1]) - int(b[i]) for i in range(n)]
-    found = []
+    found: list[tuple[float, float]] = []
     if n < 2:
         return found
     for root in roots(slope):

@@ -103,7 +103,7 @@ class Solid:
 
 def turns_below(turns: arb) -> range:
     """The whole numbers m for which m + theta may be in [0, turns], -1 <= theta <= 3/2."""
-    return range(-2, int(turns.upper().ceil().unique_fmpz()) + 2)
+    return range(-2, int(turns.upper().fmpq().ceil()) + 2)
 
 
 class Place:
@@ -207,7 +207,7 @@ class Line:
         self.left = 1 if cross > 0 else -1 if cross < 0 else 0
         self.aside = arb(abs(cross)) / self.speed if cross else ZERO
         self.swirl = -arb(cross) / full_turn()
-        self.parts = [Ball(self, *ball) for ball in solid.balls]
+        self.parts: list[Ball | Tube] = [Ball(self, *ball) for ball in solid.balls]
         self.parts += [Tube(self, m) for m in turns_below(solid.turns)]
 
     def place(self, t: arb) -> Place:
@@ -274,7 +274,8 @@ def pieces(line: Line) -> Iterator[Piece]:
         middle = line.place(((low.t + high.t) / 2).mid())
         signs, left = _settled(line, low, middle, high, parts)
         if signs:
-            yield Piece(low, high, *signs, tuple(left))
+            before, after = signs
+            yield Piece(low, high, before, after, tuple(left))
         elif high.t - low.t < LEAF or any(_is_flat(part, (middle, low, high)) for part in left):
             yield Piece(low, high, 0, 0)
         else:

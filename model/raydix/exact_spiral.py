@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 from mpmath import mpf
 
-from .exact_chord import Line, Solid, length, nearest, pieces, refine, sampled, turns_of, value_over
+from .exact_chord import Line, Place, Solid, length, nearest, pieces, refine, sampled, turns_of, value_over
 
 PRECISION = 160  # bits of the balls' midpoints wherever signs on a chord are decided
 CERTIFIED, MISSED, FALSE, WRONG, UNDECIDED = "certified", "missed", "false", "wrong", "undecided"
@@ -148,9 +148,12 @@ def indicator(surface, point: Sequence) -> arb:
 
 def _events(line: Line):
     """Roots and gaps of a chord in order of t; the work is done as far as they are asked for."""
-    sign, start, stop = 0, None, None  # the sign proved last, and the open gap after it
+    sign = 0  # the one proved last
+    start: Place | None = None  # of the open gap after it
+    stop: Place | None = None
 
     def closed(following):
+        assert start is not None and stop is not None
         if sign and following and sign != following:
             return Root(start.t.union(stop.t), start.t, stop.t, sign > 0)
         return Gap(start.t.union(stop.t), value_over(line, start, stop))
@@ -271,7 +274,7 @@ def judge(surface, h: Sequence, e: Sequence, t_found: Sequence[int], digits: int
         verdict = _certify(line, None if found < 0 else found * unit, unit, margin * unit)
         hit += verdict.root is not None
         if verdict.kind == CERTIFIED:
-            if found >= 0:
+            if verdict.root and found >= 0:
                 error[i] = float((arb((2 * found + 1) * unit / 2) - verdict.root.t) * (1 << digits))
         else:
             uncertified.append((i, verdict))
@@ -279,5 +282,5 @@ def judge(surface, h: Sequence, e: Sequence, t_found: Sequence[int], digits: int
             left_out += 1
         else:
             counts[verdict.kind] += 1
-    kinds = (counts[kind] for kind in (MISSED, FALSE, WRONG, UNDECIDED))
-    return Judged(len(t_found), hit, left_out, *kinds, error, uncertified)
+    missed, false, wrong, undecided = (counts[kind] for kind in (MISSED, FALSE, WRONG, UNDECIDED))
+    return Judged(len(t_found), hit, left_out, missed, false, wrong, undecided, error, uncertified)

@@ -160,11 +160,11 @@ def _widened(found: Extent, low, high, matrix, eye) -> Extent:
     near = (matrix[2] @ corners + eye[2]).min() - off[2]
     if near <= 0:
         return Extent(NOWHERE, NOWHERE, NOWHERE)
-    slopes = [
+    right, up = (
         (least - (off[i] + off[2] * abs(least)) / near, most + (off[i] + off[2] * abs(most)) / near)
         for i, (least, most) in enumerate((found.right, found.up))
-    ]
-    return Extent(*slopes, (found.depth[0] - off[2], found.depth[1] + off[2]))
+    )
+    return Extent(right, up, (found.depth[0] - off[2], found.depth[1] + off[2]))
 
 
 def extent(surface: Surface, low, high, matrix, eye) -> Extent | None:
@@ -172,6 +172,7 @@ def extent(surface: Surface, low, high, matrix, eye) -> Extent | None:
 
     Infinite where nothing is known. Arguments as those of :func:`algebraic_extent`.
     """
+    found: Extent | None
     if surface.type == "spiral":
         found = spiral_extent(surface, matrix, eye) or Extent(NOWHERE, NOWHERE, NOWHERE)
     else:

@@ -68,7 +68,7 @@ class Field(NamedTuple):
     name: str  # as in form_t of rdx_pkg
     token: str
     meaning: str
-    count: int = 1
+    count: int = 1  # type: ignore[assignment]  # hides the tuple's method
 
     @property
     def width(self) -> int:

@@ -57,10 +57,9 @@ class FrameHits:
 
     def counts(self) -> dict[str, float]:
         """Rays, items that hit, hits, steps per item that hit and that missed, and items that were given up."""
-        steps = [s.steps.astype(np.int64).ravel() for s in self.surfaces]
-        found = [(s.t >= 0).sum(axis=2).ravel() for s in self.surfaces]
-        steps = np.concatenate(steps) if steps else np.zeros(0, np.int64)
-        found = np.concatenate(found) if found else np.zeros(0, np.int64)
+        none = np.zeros(0, np.int64)  # so that a frame without surfaces has something to join
+        steps = np.concatenate([none, *(s.steps.astype(np.int64).ravel() for s in self.surfaces)])
+        found = np.concatenate([none, *((s.t >= 0).sum(axis=2).ravel() for s in self.surfaces)])
         hit = found > 0
         return {
             "rays": int(steps.size),

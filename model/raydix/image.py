@@ -30,7 +30,7 @@ def _write_image(path: Path, pixels: np.ndarray, names: tuple[str, ...], kind: s
         raise OSError(out.geterror())
 
 
-def write_files(writers: dict[Path, Callable[[Path], None]]) -> list[Path]:
+def write_files(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
     """Write several files, all or none: each under a temporary name beside its own, then all are renamed.
 
     writers  final path -> function that writes the file under the path that it is given, or raises OSError
@@ -77,7 +77,7 @@ def arrays(frame: Frame) -> dict[str, np.ndarray]:
     return {name: getattr(frame, name) for name in ("depth", "t", "surface", "normal", "rgb")}
 
 
-def frame_writers(frame: Frame, out: Path, name: str) -> dict[Path, Callable[[Path], None]]:
+def frame_writers(frame: Frame, out: Path, name: str) -> dict[Path, Callable[[Path], object]]:
     """What :func:`write_files` needs for ``name``.png, .exr and .npz in the folder ``out``.
 
     EXR channels, float32: R, G, B (linear), Z (camera depth, inf = miss), normal.X/Y/Z, surface (-1 = miss).
@@ -88,5 +88,5 @@ def frame_writers(frame: Frame, out: Path, name: str) -> dict[Path, Callable[[Pa
     return {
         out / f"{name}.png": png_writer(frame.rgb),
         out / f"{name}.exr": lambda work: _write_image(work, layers, CHANNELS, "float"),
-        out / f"{name}.npz": lambda work: np.savez_compressed(work, **arrays(frame)),
+        out / f"{name}.npz": lambda work: np.savez_compressed(work, **arrays(frame)),  # type: ignore[arg-type]
     }

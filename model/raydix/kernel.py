@@ -29,7 +29,8 @@ else:
     # of the sources
     _sources = sorted(Path(__file__).parent.glob("*.py"))
     _digest = hashlib.sha256(b"".join(p.read_bytes() for p in _sources)).hexdigest()[:16]
-    numba.config.CACHE_DIR = str(Path(__file__).resolve().parents[2] / "build" / "numba" / _digest)
+    _cache = Path(__file__).resolve().parents[2] / "build" / "numba" / _digest
+    numba.config.CACHE_DIR = str(_cache)  # type: ignore[attr-defined]
 
     def kernel(function):
         """Compile with numba: 64-bit integers, no global interpreter lock, cached on disk.
@@ -37,11 +38,11 @@ else:
         Calls are inlined, so that parameters which are constant in the outermost kernel are constant everywhere. No
         kernel allocates; counting references all the same took more than half of the time (131 of 192 ns a step).
         """
-        return numba.njit(nogil=True, cache=True, boundscheck=False, inline="always", _nrt=False)(function)
+        return numba.njit(nogil=True, cache=True, boundscheck=False, inline="always", _nrt=False)(function)  # type: ignore[call-overload]
 
     def subroutine(function):
         """The same for a long one that is called from several places: compiled once, and called."""
-        return numba.njit(nogil=True, cache=True, boundscheck=False, _nrt=False)(function)
+        return numba.njit(nogil=True, cache=True, boundscheck=False, _nrt=False)(function)  # type: ignore[call-overload]
 
 
 def words(values):

@@ -139,13 +139,13 @@ def run_frames(
         np.array(host.operations, np.uint32).tofile(program)
         report = simulate([binary, program, total, image, records], total, stall, wave, progress)
         rgb = np.fromfile(image, np.uint8).reshape(len(frames), height, width, 3)
-        found = np.fromfile(records, RECORD)
+        items = np.fromfile(records, RECORD)
     *values, error = report["values"]
     if error:
         raise RtlError(f"the processor reports error {error & 15} of slot {error >> 8}")
     named = dict(zip(map(str.lower, COUNTERS), values, strict=True))
     for name in ("cycles", "steps"):
         named[name] = named.pop(f"{name}_low") | named.pop(f"{name}_high") << 32
-    surfaces = _collect(frames[0][1], found, every=False) if len(frames) == 1 else []
+    surfaces = _collect(frames[0][1], items, every=False) if len(frames) == 1 else []
     hits = FrameHits(frames[0][1], surfaces, report["seconds"], named["cycles"])
     return Output(rgb, hits, named, report["frames"], report["lines"])

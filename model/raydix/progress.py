@@ -22,9 +22,9 @@ class RateColumn(ProgressColumn):
         return Text(f"{speed:,.0f}/s" if speed >= 10 else f"{speed:.1f}/s" if speed >= 1 else f"{1 / speed:.0f} s each")
 
 
-def bars() -> Progress:
-    """Bars that vanish when they are done, and are not drawn where stderr is no terminal."""
-    console = Console(stderr=True)
+def bars(console: Console | None = None) -> Progress:
+    """Bars that vanish when they are done, and are not drawn where the console, stderr, is no terminal."""
+    console = console or Console(stderr=True)
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

@@ -227,6 +227,7 @@ def simulate(command, total: int, stall: int | None, wave: Path | None, progress
     command += ["--progress", str(1 << 14)] if progress else []
     line = ""
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+        assert run.stdout  # it is a pipe
         for line in run.stdout:
             if progress and line.startswith("progress "):
                 progress(int(line.split()[1]), total)

@@ -518,7 +518,8 @@ def _table_at(loc: tuple[str | int, ...]) -> type[_Table]:
         return _Tables
     if loc[0] == "surface":
         return _SURFACES[str(loc[2])]
-    tables = {"camera": Camera, "light": Light, "background": Background, "turntable": Turntable, "frame": Keyframe}
+    tables: dict[str, type[_Table]] = {"camera": Camera, "light": Light, "background": Background}
+    tables |= {"turntable": Turntable, "frame": Keyframe}
     return tables[str(loc[0])]
 
 

@@ -24,7 +24,7 @@ class Segments(NamedTuple):
 
     b: np.ndarray
     ends: np.ndarray
-    box: tuple[int, int, int] = (0, 0, 0)
+    box: tuple[int, ...] = (0, 0, 0)
 
 
 def whole(count: int) -> np.ndarray:

@@ -3,7 +3,7 @@
 
 import hashlib
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -34,6 +34,7 @@ def render_sequence(
     frames = scene.frames()
     for done in range(0, len(numbers), BATCH):
         some = numbers[done : done + BATCH]
+        pictures: Iterable[np.ndarray]
         if backend == "rtl":
             pictures = run_frames([(frames[i], compile_scene(frames[i], config)) for i in some], config).rgb
         else:

@@ -70,9 +70,9 @@ def _nearest(surface: "Spiral", points: np.ndarray) -> _Nearest:
         pairs = zip((distance, s, is_ball), best, strict=True)
         return _Nearest(*(np.where(less, new, old) for new, old in pairs))
 
-    for s in (0.0, surface.turns):
-        ball = np.linalg.norm(points - _centre(surface, s), axis=-1) - _radius(surface, s)
-        best = closer(ball, s, True)
+    for end in (0.0, surface.turns):
+        ball = np.linalg.norm(points - _centre(surface, end), axis=-1) - _radius(surface, end)
+        best = closer(ball, end, True)
     theta = _azimuth(points)
     for m in range(int(surface.turns) + 1):
         s = m + theta

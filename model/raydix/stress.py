@@ -86,7 +86,7 @@ def resolved(exact: np.ndarray, digits: int) -> np.ndarray:
     cell = np.floor(exact * 2.0**digits)
     out = exact.copy()
     for i in np.flatnonzero((np.diff(cell, axis=1) == 0).any(axis=1)):
-        kept = []
+        kept: list[tuple[float, float]] = []
         for t, c in zip(exact[i], cell[i], strict=True):
             if kept and kept[-1][1] == c:
                 kept.pop()
@@ -120,13 +120,14 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
     exact = resolved(every, digits)
     sure, possible = places(segments, exact, digits)
     found, count = t >= 0, np.arange(len(t))
-    first = np.where(sure.any(axis=1), sure.argmax(axis=1), exact.shape[1])
+    hit: np.ndarray = np.any(sure, axis=1)
+    first = np.where(hit, sure.argmax(axis=1), exact.shape[1])
     allowed = possible & (np.arange(exact.shape[1]) <= first[:, None])
     away = np.abs((t[:, None] + 0.5) - exact / ulp)
     near = np.where(allowed, away, np.inf)
     which = near.argmin(axis=1)
     error = np.where(found & allowed.any(axis=1), near[count, which], np.nan)
-    missed = sure.any(axis=1) & ~found
+    missed = hit & ~found
     false = found & ~allowed.any(axis=1)
     # f beyond the root, on the side where it is not positive
     root = exact[count, which]
@@ -141,7 +142,7 @@ def judge(segments: Segments, t: np.ndarray, config: Config, exact: np.ndarray |
     bad = missed | false | wrong
     off = ~bad & (~good | (well & (error > 2)))
     error = np.where(wrong, np.nan, error)
-    return Judged(sure.any(axis=1), missed, false, wrong, bad & good, off, error, well, np.zeros(len(t), bool))
+    return Judged(hit, missed, false, wrong, bad & good, off, error, well, np.zeros(len(t), bool))
 
 
 def judge_spiral(surface, compiled: Compiled, found: Chords, exact: np.ndarray, clearance: np.ndarray, config: Config):

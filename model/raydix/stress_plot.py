@@ -37,6 +37,7 @@ def indicator(case: Case, t: np.ndarray) -> np.ndarray:
     """The case's indicator at parameters t (N) float64."""
     if case.b is not None:
         return bernstein(np.tile(np.asarray(case.b, np.int64), (len(t), 1)), t)
+    assert case.h is not None and case.e is not None  # without control points there is a chord
     return spiral_value(case.surface, case.h + t[:, None] * (case.e - case.h))
 
 

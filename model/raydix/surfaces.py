@@ -7,7 +7,7 @@ a closed surface. The spiral has an indicator instead, in `raydix.spiral`. Coeff
 numbers of 256 bits, computed from the scene's float64 numbers taken as the exact binary values they are.
 """
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
@@ -77,13 +77,15 @@ def form(surface: "Surface") -> Form:
         case "sphere":
             return Form(None, None, _quadric(1, 1, 1, one=-(mpf(s.R) ** 2)))
         case "ellipsoid":
-            return Form(None, None, _quadric(*_inverse_squares(s.a, s.b, s.c), one=-1))
+            xx, yy, zz = _inverse_squares(s.a, s.b, s.c)
+            return Form(None, None, _quadric(xx, yy, zz, one=-1))
         case "cylinder":
             return Form(None, None, _quadric(1, 1, 0, one=-(mpf(s.R) ** 2)))
         case "cone":
             return Form(None, None, _quadric(1, 1, -(mpf(s.k) ** 2)))
         case "paraboloid":
-            return Form(None, None, _quadric(*_inverse_squares(s.a, s.b), z=-1))
+            xx, yy = _inverse_squares(s.a, s.b)
+            return Form(None, None, _quadric(xx, yy, z=-1))
         case "hyperbolic_paraboloid":
             xx, yy = _inverse_squares(s.a, s.b)
             return Form(None, None, _quadric(xx, -yy, z=-1))
@@ -116,7 +118,7 @@ def _inverse_squares(*lengths: float) -> tuple[mpf, ...]:
 
 def is_constant(q1: Sequence[float], q2: Sequence[float], q3: Sequence[float]) -> bool:
     """Whether q1*q2 + q3 does not depend on the point; exact."""
-    total: Counter[tuple[int, ...]] = Counter()
+    total: defaultdict[tuple[int, ...], Fraction] = defaultdict(Fraction)
     for m, c in zip(MONOMIALS, q3, strict=True):
         total[m] += Fraction(c)
     for m1, c1 in zip(MONOMIALS, q1, strict=True):

@@ -63,7 +63,8 @@ def step_outputs(wave: Path) -> list[Output]:
             if token.kind is TokenKind.CHANGE_TIME:
                 _look(values, found)
             elif token.kind in (TokenKind.CHANGE_SCALAR, TokenKind.CHANGE_VECTOR):
-                change = token.data
+                scalar = token.kind is TokenKind.CHANGE_SCALAR
+                change = token.scalar_change if scalar else token.vector_change
                 if change.id_code in names:
                     signal, width = names[change.id_code]
                     value = int(change.value) if str(change.value) in "01" or isinstance(change.value, int) else 0

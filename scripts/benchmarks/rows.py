@@ -134,23 +134,24 @@ def runs_of(scene: Scene, problem: Problem) -> tuple[dict[tuple[str, str, bool],
     return runs, missing
 
 
-def measure(scene: Scene, repeats: int, tick: Callable[[str], None]) -> tuple[list[Row], list[str]]:
-    """All rows of a scene, and what could not be had. ``tick`` is told what comes."""
+def measure(scene: Scene, repeats: int, tick: Callable[[str, int], None]) -> tuple[list[Row], list[str]]:
+    """All rows of a scene, and what could not be had. ``tick`` is told what comes, and how many turns have ended."""
     problem, ideal = problem_of(scene), ideal_frame(scene).depth
     wanted = shaded(scene, ideal)
     runs, missing = runs_of(scene, problem)
     rows = {}
     for key, run in runs.items():  # the first time compiles
-        tick(f"{scene.name}: {' '.join(key[:2])}")
+        tick(f"{scene.name}: {' '.join(key[:2])}", 0)
         _, picture = run()
         depth, rgb = picture()
         method, variant, outside = key
         errors = depth_errors(depth, ideal) | picture_errors(rgb, wanted)
         rows[key] = Row(scene.name, method, variant, ideal.size, **errors, program=outside)
     for number in range(repeats):
-        tick(f"{scene.name}: turn {number + 1} of {repeats}")
+        tick(f"{scene.name}: turn {number + 1} of {repeats}", 1)
         for key, run in runs.items():
             rows[key].seconds.append(run()[0])
+    tick(scene.name, 1)
     reference = rows[RAYDIX, REFERENCE, False].seconds
     for row in rows.values():
         row.ratio = statistics.median(a / b for a, b in zip(row.seconds, reference, strict=True))
