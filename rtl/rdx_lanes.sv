@@ -33,7 +33,8 @@ module rdx_lanes #(
   end
 
   // the phase of the item that leaves: of VecsumLatency clocks ago
-  wire phase_t leaving = phase_before(phase_i, VecsumLatency, Phases);
+  phase_t leaving_q;
+  always_ff @(posedge clk_i) if (en_i) leaving_q <= phase_before(phase_i, VecsumLatency - 1, Phases);
 
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     localparam int unsigned Mine = (Points - l + Lanes - 1) / Lanes;  // points of this lane: l, l + Lanes, …
@@ -73,14 +74,14 @@ module rdx_lanes #(
         assign values_o[l+i*Lanes] = value;
       end else begin : gen_kept
         vector_t value_q;
-        always_ff @(posedge clk_i) if (en_i && leaving == phase_t'(i)) value_q <= value;
+        always_ff @(posedge clk_i) if (en_i && leaving_q == phase_t'(i)) value_q <= value;
         assign values_o[l+i*Lanes] = value_q;
       end
     end
   end
 
   if (Phases == 1) begin : gen_one_phase
-    wire unused = &{1'b0, phase_i, leaving};
+    wire unused = &{1'b0, phase_i, leaving_q};
   end
 
 endmodule

@@ -95,6 +95,8 @@ module rdx_sample #(
   end
 
   // ---- values ----
+  logic [3:0] phase_q;  // of the points
+  always_ff @(posedge clk_i) phase_q <= phase_before(phase_i, Halving - 1, Phases);
   vector_t values[J+1], new_values[J-1], start, stop;
   logic [4:0] level_here;
   rdx_lanes #(
@@ -105,7 +107,7 @@ module rdx_sample #(
       .clk_i,
       .rst_ni,
       .en_i(1'b1),
-      .phase_i(phase_before(phase_i, Halving, Phases)),
+      .phase_i(phase_q),
       .form_i,
       .points_i(points),
       .values_o(new_values)

@@ -95,7 +95,15 @@ module rdx_vecsum #(
       .data_o(rho_end)
   );
 
-  // ---- distances ----
+  // ---- distances; the balls' point comes a clock later, when it is known which of them is the nearer ----
+  coord_t point_q [3];
+  logic   upper_q;
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      point_q <= point_i;
+      upper_q <= point_i[2] >= form_i.split;
+    end
+  end
   vector_t distance[2*Parts];
   for (genvar i = 0; i < Parts; i++) begin : gen_part
     rdx_tube #(
@@ -112,7 +120,7 @@ module rdx_vecsum #(
         .distance_o(distance[2*i])
     );
     vector_t from_ball;
-    wire stop = General ? i == 1 : point_i[2] >= form_i.split;
+    wire stop = General ? i == 1 : upper_q;
     rdx_ball u_ball (
         .clk_i,
         .rst_ni,
@@ -120,12 +128,12 @@ module rdx_vecsum #(
         .form_i,
         .stop_i(stop),
         .size_i(i == 1 ? form_i.tube_stop : form_i.tube),
-        .point_i,
+        .point_i(point_q),
         .distance_o(from_ball)
     );
     rdx_line #(
         .W(VectorWidth),
-        .Depth(ToTube + TubeLatency - BallLatency)
+        .Depth(ToTube + TubeLatency - BallLatency - 1)
     ) u_from_ball (
         .clk_i,
         .rst_ni,

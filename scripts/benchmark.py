@@ -15,11 +15,11 @@ each scene (PNG, SVG) to build/bench. Exit status 0; 1: a ratio is lost (--check
 """
 
 import argparse
-import csv
 import json
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 from benchmarks.clocks import COLUMNS as CLOCKS
@@ -31,7 +31,7 @@ from benchmarks.tables import BEATEN, EVERY, LEFT, TABLE, beaten, cells, glance
 from raydix.blocks import show_table, write_table
 from raydix.cli import image_size
 from raydix.config import ConfigError
-from raydix.image import write_files
+from raydix.image import csv_writer, text_writer, write_files
 from raydix.progress import bars
 from raydix.rtl import RtlError
 from raydix.scene import SceneError, load_scene
@@ -47,19 +47,15 @@ CHOSEN_PATHS = [SCENES / f"{name}.toml" for name in CHOSEN]
 
 def save(rows: Sequence[Row], clock_rows, out: Path) -> None:
     """JSON, CSV and a picture of each scene."""
-    out.mkdir(parents=True, exist_ok=True)
-    if clock_rows:
-        (out / "clocks.json").write_text(json.dumps(clock_rows) + "\n")
-    if not rows:
-        return
-    (out / "benchmarks.json").write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")
-    with (out / "benchmarks.csv").open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(TABLE)
-        writer.writerows(cells(row) for row in rows)
+    writers = {out / "clocks.json": text_writer(json.dumps(clock_rows) + "\n")} if clock_rows else {}
+    if rows:
+        text = json.dumps([asdict(row) for row in rows], indent=1) + "\n"
+        writers[out / "benchmarks.json"] = text_writer(text)
+        writers[out / "benchmarks.csv"] = csv_writer(TABLE, map(cells, rows))
     for scene in dict.fromkeys(row.scene for row in rows):
-        for kind in ("png", "svg"):
-            plot([r for r in rows if r.scene == scene], RAYDIX, out / f"{scene}.{kind}")
+        curve = partial(plot, [r for r in rows if r.scene == scene], RAYDIX)
+        writers |= {out / f"{scene}.{kind}": curve for kind in ("png", "svg")}
+    write_files(writers)
 
 
 def restore(out: Path) -> tuple[list[Row], list]:
@@ -87,8 +83,7 @@ def publish(rows: Sequence[Row], clock_rows) -> None:
     write_table(PAGE, "beaten", BEATEN, beaten(rows))
     for scene in CHOSEN[:3]:
         plot([r for r in rows if r.scene == scene], RAYDIX, ROOT / "docs" / "images" / f"benchmark-{scene}.png")
-    text = json.dumps([asdict(row) for row in rows]) + "\n"
-    write_files({BASELINE: lambda work: work.write_text(text)})
+    write_files({BASELINE: text_writer(json.dumps([asdict(row) for row in rows]) + "\n")})
 
 
 def parse(arguments):

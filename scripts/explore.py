@@ -14,13 +14,13 @@ Writes explore.json, explore.csv and explore.png there, too. Exit status 0; 2: b
 """
 
 import argparse
-import csv
 import json
 import signal
 import sys
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from exploration.designs import SCENE_OF, Design, all_designs
@@ -29,6 +29,7 @@ from exploration.pareto import FRONTS, Point, front, point_of, recommended
 from exploration.plot import plot
 from raydix.blocks import show_table, write_table
 from raydix.config import ConfigError
+from raydix.image import csv_writer, text_writer, write_files
 from raydix.progress import bars
 from synth import SynthError, keep
 
@@ -143,14 +144,13 @@ def goals_of(points: list[Point], family: str) -> list[list[str]]:
 
 def save(results: dict[Design, dict], points: list[Point], out: Path) -> None:
     """JSON, CSV and the picture."""
-    out.mkdir(parents=True, exist_ok=True)
-    (out / "explore.json").write_text(json.dumps(list(results.values()), indent=1) + "\n")
-    with (out / "explore.csv").open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(Point._fields)
-        writer.writerows(points)
+    writers = {
+        out / "explore.json": text_writer(json.dumps(list(results.values()), indent=1) + "\n"),
+        out / "explore.csv": csv_writer(Point._fields, points),
+    }
     if points:
-        plot(points, out / "explore.png")
+        writers[out / "explore.png"] = partial(plot, points)
+    write_files(writers)
 
 
 def publish(results: dict[Design, dict], points: list[Point], families: list[str]) -> None:

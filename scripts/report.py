@@ -20,7 +20,7 @@ from pathlib import Path
 
 import jinja2
 
-from raydix.image import ImageError, write_files
+from raydix.image import ImageError, text_writer, write_files
 from reporting.documents import CHAPTERS, section
 from reporting.gallery import cards
 from reporting.results import ResultsError, read_runs
@@ -83,7 +83,7 @@ def main():
     args = parser.parse_args()
     try:
         text = page(args.render, args.results)
-        write_files({args.out: lambda work: work.write_text(text)})
+        write_files({args.out: text_writer(text)})
     except (ImageError, ResultsError, ValueError, OSError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 2

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Picture files: PNG, multi-channel EXR and npz. Either all of a render are written or none."""
+"""Output files: PNG, multi-channel EXR, npz, texts and tables. Either all of a run are written or none."""
 
+import csv
+import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +55,20 @@ def write_files(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
         for part in work.values():
             part.unlink(missing_ok=True)
     return list(writers)
+
+
+def text_writer(text: str) -> Callable[[Path], object]:
+    """What :func:`write_files` needs for a text."""
+    return lambda work: work.write_text(text)
+
+
+def csv_writer(header: Sequence, rows: Iterable[Sequence]) -> Callable[[Path], object]:
+    """The same for a table."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(header)
+    writer.writerows(rows)
+    return lambda work: work.write_bytes(text.getvalue().encode())
 
 
 def png_writer(rgb: np.ndarray) -> Callable[[Path], None]:

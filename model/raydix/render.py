@@ -11,7 +11,7 @@ from .compile import compile_scene
 from .config import Config
 from .golden import trace_golden
 from .hits import differing_bits_of
-from .image import frame_writers, png_writer, write_files
+from .image import frame_writers, png_writer, text_writer, write_files
 from .processor import run_frames
 from .scene import Scene
 from .shade import Frame, compose
@@ -125,6 +125,6 @@ def write_verdict(verdict: Verdict, out: Path, name: str, config: Config) -> lis
     beside = {
         out / f"{name}-difference.png": png_writer(picture),
         out / f"{name}-steps.npz": lambda work: np.savez_compressed(work, golden=steps_of(a), rtl=steps_of(b)),
-        out / f"{name}.json": lambda work: work.write_text(text),
+        out / f"{name}.json": text_writer(text),
     }
     return write_files(frame_writers(a, out / "golden", name) | frame_writers(b, out / "rtl", name) | beside)

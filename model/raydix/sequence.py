@@ -12,7 +12,7 @@ from PIL import Image
 
 from .compile import compile_scene, descriptor_array
 from .config import Config
-from .image import ImageError, png_writer, read_image, write_files
+from .image import ImageError, png_writer, read_image, text_writer, write_files
 from .processor import run_frames
 from .render import render_golden
 from .scene import Scene
@@ -86,7 +86,7 @@ class Kept:
         """Write a picture, and what it was made from; both or none. Raises ImageError."""
         made = self.made | {self.paths[number].name: self.wanted[number]}
         text = json.dumps(made, indent=1, sort_keys=True) + "\n"
-        write_files({self.paths[number]: png_writer(rgb), self.list: lambda work: work.write_text(text)})
+        write_files({self.paths[number]: png_writer(rgb), self.list: text_writer(text)})
         self.made = made
 
     def preview(self, path: Path) -> None:

@@ -9,11 +9,11 @@ module rdx_lanes_cover #(
     input wire logic       clk_i,
     input wire logic       en_i,
     input wire logic [3:0] phase_i,
-    input wire logic [3:0] leaving
+    input wire logic [3:0] leaving_q
 );
   for (genvar p = 0; p < Phases; p++) begin : gen_phase
     `RDX_COVER(enters, en_i && 32'(phase_i) == p)
-    `RDX_COVER(leaves, en_i && 32'(leaving) == p)
+    `RDX_COVER(leaves, en_i && 32'(leaving_q) == p)
     `RDX_COVER(stalled, !en_i && 32'(phase_i) == p)
   end
 endmodule
