@@ -6,10 +6,10 @@
 // cell holds none if the sum is above the curvature, or both are above a quarter of it. Both bounds depend on the zone: how
 // near to the axis the step's boundaries come.
 //
-// Formats    zone_i, level_i: of the item whose values come three clocks later; values_i: indicator at the J+1
+// Formats    zone_i, level_i: of the item whose values come two clocks later; values_i: indicator at the J+1
 //            boundaries, s5p33. possible_o: bit j for cell j.
 // Rounding   bounds are rounded up.
-// Timing     possible_o follows values_i by rdx_pkg::BoundLatency = 2 clocks, values_i the zone by 3; one item a clock.
+// Timing     possible_o follows values_i by rdx_pkg::BoundLatency = 3 clocks, values_i the zone by 2; one item a clock.
 // Model      model/raydix/bound.py
 `default_nettype none
 
@@ -61,25 +61,33 @@ module rdx_bound #(
     curved_q <= curved_qqq;
   end
 
-  // ---- first clock: magnitudes and their sums ----
-  vector_t size[J+1];
-  always_comb for (int unsigned j = 0; j <= J; j++) size[j] = values_i[j] < 0 ? -values_i[j] : values_i[j];
+  // ---- first clock: magnitudes ----
+  vector_t size_q[J+1];
+  logic [J:0] positive_q;
+  always_ff @(posedge clk_i) begin
+    for (int unsigned j = 0; j <= J; j++) begin
+      size_q[j] <= values_i[j] < 0 ? -values_i[j] : values_i[j];
+      positive_q[j] <= values_i[j] > 0;
+    end
+  end
+
+  // ---- second clock: their sums ----
   sum_t sum_q[J];
   logic [J:0] outside_q, flat_q;  // positive; above a quarter of the curvature
   sum_t most_qq, bend_qq;
   logic curved_qq;
   always_ff @(posedge clk_i) begin
-    for (int unsigned j = 0; j < J; j++) sum_q[j] <= sum_t'(size[j]) + sum_t'(size[j+1]);
+    for (int unsigned j = 0; j < J; j++) sum_q[j] <= sum_t'(size_q[j]) + sum_t'(size_q[j+1]);
     for (int unsigned j = 0; j <= J; j++) begin
-      outside_q[j] <= values_i[j] > 0;
-      flat_q[j] <= sum_t'(size[j]) > (bend_q >> 2);
+      flat_q[j] <= sum_t'(size_q[j]) > (bend_q >> 2);
     end
+    outside_q <= positive_q;
     most_qq   <= most_q;
     bend_qq   <= bend_q;
     curved_qq <= curved_q;
   end
 
-  // ---- second clock: the comparisons ----
+  // ---- third clock: the comparisons ----
   logic [J-1:0] possible;
   always_comb begin
     for (int unsigned j = 0; j < J; j++) begin

@@ -120,8 +120,8 @@ package rdx_pkg;
   localparam int unsigned BallLatency = 2 * LengthIterations + 4;
   localparam int unsigned VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 6;
 
-  // Latency of rdx_bound: sums and bounds, comparisons.
-  localparam int unsigned BoundLatency = 2;
+  // Latency of rdx_bound: magnitudes and bounds, sums, comparisons.
+  localparam int unsigned BoundLatency = 3;
 
   // Clocks in which a number of lanes evaluates a number of points.
   function automatic int unsigned phases(int unsigned points, int unsigned lanes);

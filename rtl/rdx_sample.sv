@@ -151,8 +151,8 @@ module rdx_sample #(
   `define RDX_WAIT(NAME, WIDTH, DEPTH, IN, OUT) \
     rdx_line #(.W(WIDTH), .Depth(DEPTH)) NAME (.clk_i, .rst_ni, .en_i(1'b1), .data_i(IN), .data_o(OUT));
   ends_t ends_here;
-  `RDX_WAIT(u_wait_level, 5, Halving + Evaluation - 3, control_i.level - modes_i.first_level, level_here)
-  `RDX_WAIT(u_wait_zone, $clog2(Zones), Evaluation - 4, zone_q, zone_here)
+  `RDX_WAIT(u_wait_level, 5, Halving + Evaluation - 2, control_i.level - modes_i.first_level, level_here)
+  `RDX_WAIT(u_wait_zone, $clog2(Zones), Evaluation - 3, zone_q, zone_here)
   `RDX_WAIT(u_wait_values, 2 * VectorWidth, Halving + Evaluation, segment_i.b, {stop, start})
   `RDX_WAIT(u_wait_outside, J, Evaluation + BoundLatency - 1, outside_q, outside_o)
   `RDX_WAIT(u_wait_control, $bits(control_t), Latency, control_i, control_o)

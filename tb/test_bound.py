@@ -12,7 +12,7 @@ from raydix.formats import FORM_INDEX, FORM_WORDS, VECTOR_WIDTH, ZONES
 from raydix.kernel import zeros
 
 LATENCY = 5  # from zone and level
-EARLY = 3  # clocks in which they are ahead of the values
+EARLY = 2  # clocks in which they are ahead of the values
 BOUND = 56  # bits
 MOST = bench.high(VECTOR_WIDTH)
 
@@ -73,7 +73,7 @@ def model(form, item, n1):
 
 @cocotb.test
 async def equals_model(dut):
-    """Every bit of the mask is the model's, two clocks after the values, five after zone and level."""
+    """Every bit of the mask is the model's, three clocks after the values, five after zone and level."""
     random = bench.rng()
     n1 = bench.parameter(dut, "N1")
     steps = 32 // n1

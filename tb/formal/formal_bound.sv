@@ -35,7 +35,7 @@ module formal_bound #(
 
   logic [2:0] clocks = '0;
 
-  // ---- the bounds of the cell, rounded up, three clocks before the values ----
+  // ---- the bounds of the cell, rounded up, two clocks before the values ----
   number_t change, curvature, change_q, curvature_q;
   logic curved, curved_q;
   wire [5:0] digits = 6'(N1) * (6'(level_i) + 6'd1);  // the cell is 2^-digits of the segment
@@ -58,7 +58,7 @@ module formal_bound #(
          clocks < 3'd3 || !curved_q || number_t'(u_bound.bend_q) == (curvature_q > Most ? Most : curvature_q))
   `LEMMA(0, p_curved, clocks < 3'd3 || u_bound.curved_q == curved_q)
 
-  logic [J-1:0] wanted, wanted_d, wanted_q, one_sign, one_sign_d, one_sign_q;
+  logic [J-1:0] wanted, wanted_d[2], wanted_q, one_sign, one_sign_d[2], one_sign_q;
   for (genvar j = 0; j < J; j++) begin : gen_cell
     number_t left, right, sum;
     logic none;
@@ -68,9 +68,9 @@ module formal_bound #(
       if (values_i[j] < 0) left = -left;
       if (values_i[j+1] < 0) right = -right;
       sum  = left + right;
-      none = sum > change_q;
-      if (curved_q && values_i[j] > 0)
-        none = none || sum > curvature_q || (4 * left > curvature_q && 4 * right > curvature_q);
+      none = sum > change_d[1];
+      if (curved_d[1] && values_i[j] > 0)
+        none = none || sum > curvature_d[1] || (4 * left > curvature_d[1] && 4 * right > curvature_d[1]);
     end
     assign wanted[j]   = !none;
     assign one_sign[j] = (values_i[j] > 0) == (values_i[j+1] > 0);
@@ -79,8 +79,8 @@ module formal_bound #(
     `GIVEN(g_value, values_i[j] != vector_t'({1'b1, {VectorWidth - 1{1'b0}}}))
   end
   always_ff @(posedge clk_i) begin
-    {wanted_d, wanted_q} <= {wanted, wanted_d};
-    {one_sign_d, one_sign_q} <= {one_sign, one_sign_d};
+    {wanted_d[0], wanted_d[1], wanted_q} <= {wanted, wanted_d[0], wanted_d[1]};
+    {one_sign_d[0], one_sign_d[1], one_sign_q} <= {one_sign, one_sign_d[0], one_sign_d[1]};
     if (clocks != 3'd5) clocks <= clocks + 1'b1;
   end
   `LEMMA(1, p_possible, clocks != 3'd5 || ((possible ^ wanted_q) & one_sign_q) == '0)
