@@ -93,8 +93,8 @@ realtime: $(READY) ## cycles of a frame of the processor at 1920x1080 and the cl
 bench: $(READY) ## run time against error: golden model and alternatives on the same rays, five scenes or SCENE= (ARGS=)
 	@$(BIN)/python scripts/benchmark.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
-bench-full: $(READY) ## the same for every scene with one surface, more turns, and the processor's clocks (ARGS=)
-	@$(BIN)/python scripts/benchmark.py --full --rtl --repeats 15 $(ARGS)
+bench-full: $(READY) ## the same for every scene with one surface, fewer turns, and the clocks of the placed engines (ARGS=--write)
+	@$(BIN)/python scripts/benchmark.py --full --rtl --repeats 5 $(ARGS)
 
 bench-check: $(READY) ## compare the ratios with those kept in docs/benchmarks.json (ARGS=)
 	@$(BIN)/python scripts/benchmark.py --check $(ARGS)

