@@ -131,6 +131,39 @@ def test_table_is_written_with_clocks_only(synth, capsys):
         assert "--write" in refused(synth, capsys, "--write", *arguments)
 
 
+def test_what_a_point_aims_at_reaches_nextpnr(synth, tmp_path):
+    """Clock and density of a point are nextpnr's options, once each; what others placed is not taken for it."""
+    end = {"cell": "wrapper.in.a", "port": "Q"}
+    path = {"from": "posedge c", "to": "posedge c", "path": [{"type": "logic", "delay": 1.0, "from": end, "to": end}]}
+    used = {"TRELLIS_COMB": {"used": 9}, "TRELLIS_FF": {"used": 9}}
+    report = {"fmax": {"c": {"achieved": 50.0}}, "critical_paths": [path], "utilization": used}
+
+    class Recorder:
+        """In place of the tools: remembers the commands, and has a report for each."""
+
+        ended, commands = False, []
+
+        def run(self, tool, command, log, cwd):
+            """See :class:`synth.Tools`."""
+            self.commands.append(command)
+            (cwd / "report.json").write_text(json.dumps(report))
+            return 1.0
+
+    ports = {"clk_i": {"direction": "input", "bits": [2]}, "a_o": {"direction": "output", "bits": [3]}}
+    netlist = {"modules": {"rdx_halve": {"ports": ports, "cells": {}, "netnames": {}}}}
+    (tmp_path / "netlist.json").write_text(json.dumps(netlist))
+    recorder, small = Recorder(), {"W": 8, "D": 1}
+    plain, dense = synth.Point("rdx_halve", small), synth.Point("rdx_halve", small, target=75, density=0.5)
+    for point in (plain, dense, plain, dense):
+        figures, _, _ = synth.place(point, tmp_path, 1, recorder, lambda text: None)
+        assert figures["fmax_mhz"] == 50.0
+    assert len(recorder.commands) == 2
+    first, second = ([command[command.index("--freq") + 1], command.count("--freq")] for command in recorder.commands)
+    assert first == ["400", 1] and second == ["75", 1]
+    assert "--placer-heap-beta" not in recorder.commands[0]
+    assert recorder.commands[1][recorder.commands[1].index("--placer-heap-beta") + 1] == "0.5"
+
+
 def test_rows_of_the_page_are_read_back():
     """The table in the page has rows of the script's design points, each with all columns but the time."""
     synth = load()
