@@ -89,7 +89,7 @@ POINTS = {
     "shade-d4": Point("rdx_shade", {"D": 4, "Vecsum": 0, "Surfaces": 1}),
     "render-quadric": Point(
         "rdx_render",
-        {"D": 2, "U": 1, "Rings": 3, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2},
+        {"D": 2, "U": 1, "Rings": 3, "Rules": 1, "Surfaces": 1, "Layers": 1, "MaxWidth": 1920, "Pixels": 2, "W": 30},
         slow=True,
         target=100,
         density=0.6,
