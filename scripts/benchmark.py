@@ -47,7 +47,7 @@ CHOSEN_PATHS = [SCENES / f"{name}.toml" for name in CHOSEN]
 
 def save(rows: Sequence[Row], clock_rows, out: Path) -> None:
     """JSON, CSV and a picture of each scene."""
-    writers = {out / "clocks.json": text_writer(json.dumps(clock_rows) + "\n")} if clock_rows else {}
+    writers = {out / "clocks.json": text_writer(json.dumps(clock_rows) + "\n")}
     if rows:
         text = json.dumps([asdict(row) for row in rows], indent=1) + "\n"
         writers[out / "benchmarks.json"] = text_writer(text)
@@ -60,16 +60,23 @@ def save(rows: Sequence[Row], clock_rows, out: Path) -> None:
 
 def restore(out: Path) -> tuple[list[Row], list]:
     """What :func:`save` has written to the folder. Raises ValueError where there is nothing of this form."""
-    path, clock_path = out / "benchmarks.json", out / "clocks.json"
+    path = out / "benchmarks.json"
     try:
         rows = [Row(**row) for row in json.loads(path.read_text())]
-        return rows, json.loads(clock_path.read_text()) if clock_path.exists() else []
-    except (OSError, TypeError, ValueError):
-        raise ValueError(f"{path}: found no rows of this form; allowed: those of a run") from None
+        glance(rows, clock_rows := json.loads((out / "clocks.json").read_text()))
+    except (OSError, TypeError, ValueError, LookupError):
+        raise ValueError(f"{path}, clocks.json: found no rows of this form; allowed: those of a run") from None
+    return rows, clock_rows
 
 
 def publish_every(rows: Sequence[Row], clock_rows) -> None:
-    """The page's table of every scene."""
+    """The page's table of every scene. Raises ValueError where scenes or their clocks are missing."""
+    wanted = {scene.name for path in SCENES.glob("*.toml") if measurable(scene := load_scene(path))}
+    found = {row.scene for row in rows}
+    if found != wanted or not clock_rows:
+        raise ValueError(
+            f"--write: found {len(found)} scenes, {len(clock_rows)} clocks; allowed: those of make bench-full"
+        )
     write_table(PAGE, "every", EVERY, glance(rows, clock_rows))
 
 
@@ -97,17 +104,20 @@ def parse(arguments):
     parser.add_argument("--only-rtl", action="store_true", help="clocks of the engines, no times")
     parser.add_argument("--out", type=Path, default=OUT, help="folder (default: build/bench)")
     parser.add_argument("--kept", action="store_true", help="measure nothing; show what the last run kept")
-    parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md, its pictures and the baseline")
+    parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md; see above")
     parser.add_argument("--check", action="store_true", help="compare with the baseline")
     options = parser.parse_args(arguments)
     if options.repeats < 1:
         parser.error("--repeats: found less than 1; allowed: 1 or more")
     if options.check and options.only_rtl:
         parser.error("--check: found with --only-rtl; allowed: with times, whose ratios it compares")
-    if options.kept and (options.scene or options.check or options.rtl or options.only_rtl):
+    asked = options.scene, options.check, options.rtl, options.only_rtl, options.size != (None, None)
+    if options.kept and any(asked):
         parser.error("--kept: found with something to measure; allowed: with --full, --out and --write")
     if options.kept and options.write and not options.full:
         parser.error("--kept: found with --write; allowed: with --full, for the table of every scene")
+    if options.full and options.write and not (options.rtl or options.kept):
+        parser.error("--write: found with --full; allowed: with --rtl or --kept, too: the table has both")
     if options.write and (options.scene or options.check or options.size != (None, None)):
         parser.error("--write: found with other scenes, another size or --check; allowed: as the page has it")
     return options

@@ -212,7 +212,7 @@ def failures(joined: dict) -> int:
 def each_level(rays: int, seed: int, processes: int) -> tuple[list, int]:
     """Rows of single levels and distances, and failures."""
     names = list(stress_polynomials.EACH)
-    part = collect(jobs(rays, seed, names, Config(units=1), False), processes, True)
+    part = collect(jobs(rays, seed, names, Config(units=1), False), processes)
     return [cells(name, rule, part[name, rule]) for rule in RULES for name in names], failures(part)
 
 
@@ -222,7 +222,7 @@ def at_limits(rays: int, seed: int, processes: int) -> tuple[list, int]:
     limits += [(Config(*n1_k, units=1), SPIRAL_LIMIT_CATEGORIES, max(1, rays // 10)) for n1_k in SPIRAL_LIMITS]
     rows, failed = [], 0
     for config, names, count in limits:
-        part = collect(jobs(count, seed, names, config, False), processes, True)
+        part = collect(jobs(count, seed, names, config, False), processes)
         words = f"{config.width}, {config.degree}" if names is LIMIT_CATEGORIES else "spirals"
         rows += [[f"{config.n1}, {config.steps}, {words}", *total(part, rule)[1:]] for rule in RULES]
         failed += failures(part)

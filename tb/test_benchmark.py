@@ -169,13 +169,20 @@ def test_command(script, monkeypatch, tmp_path, capsys):
     assert "certified, n1 4, K 6" in said.out and "Bézier clipping" in said.out
     assert len((out / "benchmarks.csv").read_text().splitlines()) == len(rows) + 1
     assert (out / "sphere.png").stat().st_size > 10_000 and "<svg" in (out / "sphere.svg").read_text()
-    page = tmp_path / "page.md"  # what was kept makes the same tables, and the page's table of every scene
+    assert script.main(["--full", "--kept", "--out", str(out)]) == 0  # what was kept makes the same tables
+    assert capsys.readouterr().out == said.out
+    page = tmp_path / "page.md"
     page.write_text("<!-- BEGIN generated: every -->\n<!-- END generated: every -->\n")
     monkeypatch.setattr(sys.modules["benchmark"], "PAGE", page)
+    before = page.read_text()
+    assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 2  # one scene is not all
+    assert "found 1 scenes, 0 clocks" in capsys.readouterr().err and page.read_text() == before
+    (out / "clocks.json").write_text(json.dumps([["sphere", *["1.50"] * (len(script.CLOCKS) - 1)]]))
+    monkeypatch.setattr(sys.modules["benchmark"], "measurable", lambda scene: scene.name == "sphere")
     assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 0
-    assert capsys.readouterr().out == said.out
     (line,) = (line for line in page.read_text().splitlines() if line.startswith("| sphere"))
-    assert line.split("|")[2].strip() == f"{1e3 * np.median(reference['seconds']):.1f}"
+    line = [cell.strip() for cell in line.strip("|").split("|")]
+    assert line[1] == f"{1e3 * np.median(reference['seconds']):.1f}" and line[-1] == "1.50"
 
 
 @pytest.mark.parametrize("scene, words", [("gallery", "allowed: one picture of one"), ("nowhere", "nowhere.toml")])
@@ -204,7 +211,10 @@ def test_transparent_surface_is_refused(script, tmp_path, capsys):
         (["--write", "--check"], "allowed: as the page has it"),
         (["torus.toml", "--write"], "allowed: as the page has it"),
         (["--kept", "--check"], "allowed: with --full, --out and --write"),
+        (["--kept", "--size", "64x48"], "allowed: with --full, --out and --write"),
         (["--kept", "--write"], "allowed: with --full"),
+        (["--full", "--write"], "allowed: with --rtl or --kept"),
+        (["--full", "--write", "--only-rtl"], "allowed: with --rtl or --kept"),
     ],
 )
 def test_bad_arguments(script, capsys, arguments, words):
@@ -216,11 +226,15 @@ def test_bad_arguments(script, capsys, arguments, words):
 
 def test_nothing_kept(script, tmp_path, capsys):
     """What is kept is asked for where nothing is, or something else: status 2 and a line."""
-    for text in (None, "[", '[{"scene": "sphere"}]'):
-        if text:
-            (tmp_path / "benchmarks.json").write_text(text)
+    rows = json.dumps([asdict(row(script, script.RAYDIX, script.REFERENCE, [1.0], 1.0))])
+    others = json.dumps([asdict(row(script, script.RAYDIX, "certified, n1 1, K 12", [1.0], 1.0))])
+    wrong = [(None, "[]"), ("[", "[]"), ('[{"scene": "sphere"}]', "[]"), (others, "[]")]
+    wrong += [(rows, text) for text in (None, "5", "[", "[1]", '[["made"]]', '[["made", "", "", "", "", "", "x"]]')]
+    for found, clocks in wrong:
+        for name, text in (("benchmarks.json", found), ("clocks.json", clocks)):
+            (tmp_path / name).write_text(text) if text is not None else (tmp_path / name).unlink(missing_ok=True)
         assert script.main(["--kept", "--out", str(tmp_path)]) == 2
-        assert "benchmarks.json: found no rows of this form" in capsys.readouterr().err
+        assert "benchmarks.json, clocks.json: found no rows of this form" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option, name", [("--rtl", "PLACED"), ("--check", "BASELINE")])

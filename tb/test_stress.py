@@ -128,7 +128,7 @@ def test_giving_up_is_a_failure(monkeypatch):
 
     trace = script.trace_spiral
     monkeypatch.setattr(script, "trace_spiral", given_up)
-    part = script.collect([script.Job("thin spiral", 0, 60, REFERENCE, 11)], 1, True)
+    part = script.collect([script.Job("thin spiral", 0, 60, REFERENCE, 11)], 1)
     counts = part["thin spiral", "certified"]["counts"]
     assert script.failures(part) == counts[script.COUNTS.index("with a root outside")] > 0.8 * counts[1]
 

@@ -88,7 +88,7 @@ def glance(rows: Sequence[Row], clock_rows: Sequence[Sequence[str]]) -> list[lis
     for scene in dict.fromkeys(row.scene for row in rows):
         mine = [r for r in rows if r.scene == scene]
         own = [r for r in mine if r.method == RAYDIX and r.variant.startswith("certified")]
-        reference = next(r for r in own if r.variant == REFERENCE)
+        (reference,) = (r for r in own if r.variant == REFERENCE)
         line = [scene, f"{1e3 * reference.median:.1f}", f"{reference.p999:.1e}", str(reference.silhouette)]
         for names in GROUPS.values():
             pairs = [(r, rival(r, own)) for r in mine if r.method.startswith(names)]
