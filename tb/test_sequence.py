@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -127,7 +128,9 @@ def test_signal(scene, tmp_path):
     scene.write_text(scene.read_text().replace(f"frames = {FRAMES}", "frames = 900"))
     out = tmp_path / "out"
     command = [Path(sys.executable).parent / "raydix", "render", scene, "--size", "64x48", "--frames", "--out", out]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    # a shell's background job is told to ignore Ctrl-C, and so would this process be
+    heed = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=heed)
     limit = time.monotonic() + 400
     while not (out / "round-002.png").exists():
         assert process.poll() is None and time.monotonic() < limit
