@@ -334,8 +334,16 @@ def test_programs_find_the_surface(script, name):
         else:
             allowed = 1e-3 if program.name == "Embree" else 2e-5
             assert found["rms"] <= allowed, f"{program.name}: {found}"
-        assert seconds >= 0
+        assert seconds > 0
         assert found["silhouette"] <= SILHOUETTE, f"{program.name}: {found}"
+
+
+@pytest.mark.parametrize(("printed", "seconds"), [("0.000", 1e-3), ("0.107", 0.107), ("12.250", 12.25)])
+def test_seconds_of_a_report(script, printed, seconds):
+    """POV-Ray's trace time; never 0, however small the picture is: times are divided by each other."""
+    report = f"Render Time:\n  Photon Time: No photons\n  Trace Time: 0 hours 0 minutes 0 seconds ({printed} seconds)\n"
+    module = sys.modules["alternatives.povray"]
+    assert module.seconds_of(report) == seconds and module.seconds_of("Fatal error") is None
 
 
 def test_program_that_is_not_there(script, monkeypatch):

@@ -221,6 +221,12 @@ def depth_of(p: Problem, functions: str, scene: dict[str, str]) -> np.ndarray:
     return np.where(colours[..., 2] < 0.5, near + span * part, np.inf)
 
 
+def seconds_of(report: str) -> float | None:
+    """Seconds of tracing as POV-Ray prints them, at least one unit of their last digit; None: it printed none."""
+    spent = re.findall(r"Trace Time:.*\(([\d.]+) seconds\)", report)
+    return max(float(spent[-1]), 1e-3) if spent else None
+
+
 def trace(p: Problem, text: str) -> tuple[float, np.ndarray]:
     """Run POV-Ray: seconds, colours (height, width, 3), 0 to 1. Raises ValueError where it fails."""
     with tempfile.TemporaryDirectory() as folder:
@@ -229,7 +235,7 @@ def trace(p: Problem, text: str) -> tuple[float, np.ndarray]:
         command = ["povray", f"+I{scene}", f"+O{picture}", f"+W{p.width}", f"+H{p.height}", "+FN16", "File_Gamma=1.0"]
         command += ["-D", "-A", "-J", "+WT1", "-P"]
         run = subprocess.run(command, capture_output=True, text=True, cwd=folder)
-        spent = re.findall(r"Trace Time:.*\(([\d.]+) seconds\)", run.stderr)
-        if run.returncode or not spent:
+        seconds = seconds_of(run.stderr)
+        if run.returncode or seconds is None:
             raise ValueError(f"povray failed: {' '.join(run.stderr.splitlines()[-3:])}")
-        return float(spent[-1]), oiio.ImageBuf(str(picture)).get_pixels(oiio.UINT16).astype(np.float64) / 65535
+        return seconds, oiio.ImageBuf(str(picture)).get_pixels(oiio.UINT16).astype(np.float64) / 65535
