@@ -4,6 +4,7 @@
 
     scripts/realtime.py                       the paper's figure 2, 1920x1080, on the processors of `make pnr`
     scripts/realtime.py SCENE --rings 4       one scene, on a processor of its own; parameters as those of raydix render
+    scripts/realtime.py --work                steps done over those needed, instead, of every scene, 1920x1080
     scripts/realtime.py --skips               what each kind of skipping saves, instead, of every scene, 320x240
     scripts/realtime.py --write               renew the table in docs/realtime.md, too
 
@@ -35,6 +36,7 @@ BUILT = {"torus": "render-torus", "hyperboloid": "render-quadric", "spiral": "re
 RATE = 60  # frames a second
 SPEED = ("scene", "size", "processor", "n1", "rings", "rays", "steps", "steps / needed", "cycles",
          "clock for 60 Hz, MHz", "LUT4", "placed, MHz", "frames a second")  # fmt: skip
+WORK = ("scene", "rays", "visible layers", "steps", "steps / needed", "cycles")
 SAVED = ("scene", "steps / needed", "all on", *(f"without {name}" for name in SKIPS), "all off", "saved")
 
 
@@ -96,6 +98,17 @@ def speed_row(path, args):
     return row, (output.rgb[0] == frame.rgb).all()
 
 
+def work_row(path, args):
+    """Steps done and needed on a processor of its own, and whether the picture is the golden model's."""
+    scene = load_scene(path, *args.size)
+    config = own_config(scene, args)
+    compiled, frame = golden(scene, config)
+    output = run_frames([(scene, compiled)], config)
+    counted = output.counters
+    row = [scene.name, *(f"{counted[name]:,}" for name in ("rays", "visible", "steps"))]
+    return [*row, work(config, counted), f"{counted['cycles']:,}"], (output.rgb[0] == frame.rgb).all()
+
+
 def saved_row(path, args):
     """Cycles with all kinds of skipping, without each, and without any."""
     scene = load_scene(path, *args.size)
@@ -113,14 +126,16 @@ def saved_row(path, args):
 def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: the paper's figure 2; --skips: all)")
+    parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: the paper's figure 2, or all)")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), metavar="WxH")
     parser.add_argument("--n1", type=int)
     parser.add_argument("--rings", type=int)
     parser.add_argument("--lanes", type=int)
     parser.add_argument("--vector-rings", type=int)
     parser.add_argument("--beat", type=int)
-    parser.add_argument("--skips", action="store_true", help="what each kind of skipping saves")
+    table = parser.add_mutually_exclusive_group()
+    table.add_argument("--work", action="store_true", help="steps done over those needed")
+    table.add_argument("--skips", action="store_true", help="what each kind of skipping saves")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/realtime.md")
     args = parser.parse_args()
     defaults = {"n1": 3, "rings": 4, "lanes": None, "vector_rings": 1, "beat": 2}
@@ -128,10 +143,13 @@ def main():
     for name, value in defaults.items():
         setattr(args, name, value if getattr(args, name) is None else getattr(args, name))
     args.size = args.size or ((320, 240) if args.skips else (1920, 1080))
-    header, row_of, name = (SAVED, saved_row, "skips") if args.skips else (SPEED, speed_row, "speed")
-    scenes = args.scene or (
-        sorted(SCENES.glob("*.toml")) if args.skips else [SCENES / f"{name}.toml" for name in BUILT]
-    )
+    header, row_of, name = SPEED, speed_row, "speed"
+    if args.work:
+        header, row_of, name = WORK, work_row, "work"
+    if args.skips:
+        header, row_of, name = SAVED, saved_row, "skips"
+    every = sorted(SCENES.glob("*.toml"))
+    scenes = args.scene or (every if args.work or args.skips else [SCENES / f"{name}.toml" for name in BUILT])
     try:
         results = [row_of(path, args) for path in track(scenes, "scenes")]
     except (SceneError, ConfigError, RtlError) as error:

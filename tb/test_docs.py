@@ -51,7 +51,7 @@ SLOW = {
     "make pnr": "make pnr POINT=count",
     "make coverage": "make coverage T=delay",
     "make second": 'make second T=register ARGS="--seed 1"',
-    "scripts/realtime.py": "scripts/realtime.py scenes/sphere.toml --size 48x36 --rings 1",
+    "scripts/realtime.py": "scripts/realtime.py scenes/sphere.toml --size 48x36 --rings 1 --work",
     "scripts/synth.py": ".venv/bin/python scripts/synth.py count --no-pnr",
 }
 # Those that need more than a command: the test that runs them.
