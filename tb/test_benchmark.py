@@ -107,7 +107,7 @@ def test_every_scene_at_a_glance(script):
     others = [
         row(script, "closed form", "", [1.5] * 3, 0.75, p999=1e-12),
         row(script, "64 samples, bisection", "12", [1.5] * 3, 0.75, p999=1e-3),
-        row(script, "64 samples, Newton", "12", [3.0] * 3, 1.5, p999=1e-6),
+        row(script, "64 samples, Newton", "12", [3.4] * 3, 1.7, p999=1e-6),
         row(script, "64 samples, Newton", "16", [5.0] * 3, 2.5, p999=1e-12),
         row(script, "64 samples, regula falsi", "16", [4.0] * 3, 2.0, p999=1e-11),
     ]
@@ -165,7 +165,7 @@ def test_command(script, monkeypatch, tmp_path, capsys):
     for r in rows:
         turns = [a / b for a, b in zip(r["seconds"], reference["seconds"], strict=True)]
         assert len(turns) == 2 and r["ratio"] == pytest.approx(np.median(turns))
-        assert r["program"] or min(r["seconds"]) > 0
+        assert min(r["seconds"]) > 0
     assert "certified, n1 4, K 6" in said.out and "Bézier clipping" in said.out
     assert len((out / "benchmarks.csv").read_text().splitlines()) == len(rows) + 1
     assert (out / "sphere.png").stat().st_size > 10_000 and "<svg" in (out / "sphere.svg").read_text()
@@ -175,10 +175,15 @@ def test_command(script, monkeypatch, tmp_path, capsys):
     page.write_text("<!-- BEGIN generated: every -->\n<!-- END generated: every -->\n")
     monkeypatch.setattr(sys.modules["benchmark"], "PAGE", page)
     before = page.read_text()
-    assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 2  # one scene is not all
-    assert "found 1 scenes, 0 clocks" in capsys.readouterr().err and page.read_text() == before
-    (out / "clocks.json").write_text(json.dumps([["sphere", *["1.50"] * (len(script.CLOCKS) - 1)]]))
+    none, clocks = "[]", json.dumps([["sphere", *["1.50"] * (len(script.CLOCKS) - 1)]])
+    for text, count in ((none, 0), (clocks, 1)):
+        (out / "clocks.json").write_text(text)
+        assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 2  # one scene is not all
+        assert f"found 1 scenes, {count} clocks" in capsys.readouterr().err and page.read_text() == before
     monkeypatch.setattr(sys.modules["benchmark"], "measurable", lambda scene: scene.name == "sphere")
+    (out / "clocks.json").write_text(none)
+    assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 2  # all scenes, no clocks
+    (out / "clocks.json").write_text(clocks)
     assert script.main(["--full", "--kept", "--write", "--out", str(out)]) == 0
     (line,) = (line for line in page.read_text().splitlines() if line.startswith("| sphere"))
     line = [cell.strip() for cell in line.strip("|").split("|")]
