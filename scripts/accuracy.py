@@ -19,8 +19,10 @@ from rich.table import Table
 
 from raydix.accuracy import DepthErrors, depth_errors
 from raydix.blocks import write_table
+from raydix.command import above, image_size, status_of
 from raydix.config import RULES, Config
 from raydix.fit import families
+from raydix.image import text_writer, write_files
 from raydix.oracle import ideal_frame
 from raydix.progress import track
 from raydix.render import render_golden
@@ -58,15 +60,11 @@ def main(arguments=None):
     """Measure, print, compare with the limits; returns the exit status."""
     options = parse(arguments)
     scenes = options.scene or sorted(SCENES.glob("*.toml"))
-    try:
-        rows = [measure(scene, options) for scene in track(scenes, "scenes")]
-    except (ValueError, OSError) as error:
-        print(f"accuracy: {error}", file=sys.stderr)
-        return 2
+    rows = [measure(scene, options) for scene in track(scenes, "scenes")]
 
     Console(width=None if sys.stdout.isatty() else 160).print(table(rows))
     if options.json:
-        options.json.write_text(json.dumps([as_json(row, options) for row in rows], indent=2) + "\n")
+        write_files({options.json: text_writer(json.dumps([as_json(row, options) for row in rows], indent=2) + "\n")})
 
     if options.write:
         header = [column.replace("\n", " ") for column in COLUMNS]
@@ -87,21 +85,15 @@ def parse(arguments):
     parser.add_argument("--n1", type=int, default=reference.n1, help="digits per step")
     parser.add_argument("--steps", type=int, default=reference.steps, help="steps K")
     parser.add_argument("--width", type=int, default=reference.width, help="bits W of a control point")
-    parser.add_argument("--size", type=size, default=(None, None), metavar="WxH", help="image size")
+    parser.add_argument("--size", type=image_size, default=(None, None), metavar="WxH", help="image size")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers to FILE, too")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/accuracy.md")
     limits = parser.add_argument_group("limits per scene (exit status 1 when exceeded)")
     limits.add_argument("--max-silhouette", type=int, default=0, metavar="PIXELS")
-    limits.add_argument("--max-ulp", type=float, metavar="ULP", help="largest error in ulp")
-    limits.add_argument("--max-depth", type=float, metavar="LENGTH", help="largest depth error")
-    limits.add_argument("--max-rms", type=float, metavar="LENGTH", help="rms depth error")
+    limits.add_argument("--max-ulp", type=above(0), metavar="ULP", help="largest error in ulp")
+    limits.add_argument("--max-depth", type=above(0), metavar="LENGTH", help="largest depth error")
+    limits.add_argument("--max-rms", type=above(0), metavar="LENGTH", help="rms depth error")
     return parser.parse_args(arguments)
-
-
-def size(text):
-    """WxH as two integers."""
-    width, height = (int(part) for part in text.lower().split("x"))
-    return width, height
 
 
 def measure(path, options):
@@ -158,4 +150,4 @@ def exceeded(errors, options):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

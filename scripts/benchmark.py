@@ -29,7 +29,7 @@ from benchmarks.plot import plot
 from benchmarks.rows import RAYDIX, Row, measurable, measure
 from benchmarks.tables import BEATEN, EVERY, LEFT, TABLE, beaten, cells, glance
 from raydix.blocks import show_table, write_table
-from raydix.cli import image_size
+from raydix.command import COUNT, image_size, status_of
 from raydix.config import ConfigError
 from raydix.image import csv_writer, text_writer, write_files
 from raydix.progress import bars
@@ -99,7 +99,7 @@ def parse(arguments):
     parser.add_argument("scene", nargs="*", type=Path, help=f"scene files (default: {', '.join(CHOSEN)})")
     parser.add_argument("--full", action="store_true", help="every scene with one surface")
     parser.add_argument("--size", type=image_size, default=(None, None), metavar="WxH", help="instead of the scene's")
-    parser.add_argument("--repeats", type=int, default=7, help="turns (default: 7)")
+    parser.add_argument("--repeats", type=COUNT, default=7, help="turns (default: 7)")
     parser.add_argument("--rtl", action="store_true", help="clocks of the engines, too")
     parser.add_argument("--only-rtl", action="store_true", help="clocks of the engines, no times")
     parser.add_argument("--out", type=Path, default=OUT, help="folder (default: build/bench)")
@@ -107,8 +107,6 @@ def parse(arguments):
     parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md; see above")
     parser.add_argument("--check", action="store_true", help="compare with the baseline")
     options = parser.parse_args(arguments)
-    if options.repeats < 1:
-        parser.error("--repeats: found less than 1; allowed: 1 or more")
     if options.check and options.only_rtl:
         parser.error("--check: found with --only-rtl; allowed: with times, whose ratios it compares")
     asked = options.scene, options.check, options.rtl, options.only_rtl, options.size != (None, None)
@@ -197,4 +195,4 @@ def main(arguments=None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

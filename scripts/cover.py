@@ -15,6 +15,7 @@ from rich.table import Table
 
 from raydix import coverpoints
 from raydix.blocks import read_table, write_table
+from raydix.command import COUNT, status_of
 from raydix.files import sources, top_modules
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -105,7 +106,7 @@ def main():
     """Command line: 0 where every gap is closed or waived, 1 where not, 2 for a mistake of the user's."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("module", nargs="*", help="only these")
-    parser.add_argument("--jobs", type=int, default=1, help="builds and simulations at a time (default: 1)")
+    parser.add_argument("--jobs", type=COUNT, default=1, help="builds and simulations at a time (default: 1)")
     parser.add_argument("--write", action="store_true", help="renew the rows of these modules in docs/coverage.md")
     args = parser.parse_args()
     try:
@@ -141,4 +142,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -13,6 +13,7 @@ from raydix import stress, stress_polynomials, stress_rays, stress_spirals
 from raydix.blocks import show_table, write_table
 from raydix.chords import chord_quads
 from raydix.chords_spiral import random_spiral, spiral_config
+from raydix.command import COUNT, SEED, status_of
 from raydix.compile import PRECISION, Quadratic
 from raydix.config import Config
 from raydix.error_bounds import halving, resolution
@@ -169,8 +170,8 @@ def text(row) -> list[str]:
 def main() -> int:
     """Command line; exit status 1 where a bound is refuted."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--rays", type=int, default=200, help="of each category (default: 200)")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--rays", type=COUNT, default=200, help="of each category (default: 200)")
+    parser.add_argument("--seed", type=SEED, default=1)
     parser.add_argument("--write", action="store_true", help="renew the table in docs/error-analysis.md")
     args = parser.parse_args()
     rows, refuted = [], []
@@ -196,4 +197,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -19,6 +19,7 @@ import numpy as np
 
 from raydix.blocks import show_table, write_table
 from raydix.chords import chord_quads, random_chords, rates, trace_chords
+from raydix.command import COUNT, SEED, status_of
 from raydix.config import Config
 from raydix.oracle import chord_roots, quadrics
 from raydix.progress import track
@@ -99,8 +100,8 @@ def main(arguments=None) -> int:
     """Command line; returns the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="*", help=f"{', '.join(SCENES)} (default: all)")
-    parser.add_argument("--chords", type=int, default=200_000, help="chords of each type (default: 200000)")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--chords", type=COUNT, default=200_000, help="chords of each type (default: 200000)")
+    parser.add_argument("--seed", type=SEED, default=1)
     parser.add_argument("--write", action="store_true", help="renew the tables in docs/accuracy.md")
     args = parser.parse_args(arguments)
     for name in args.scene:
@@ -124,4 +125,4 @@ def main(arguments=None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

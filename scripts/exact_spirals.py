@@ -5,8 +5,7 @@ import argparse
 import random
 import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from itertools import repeat
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,9 +22,11 @@ from raydix.chords_spiral import (
     spiral_config,
     trace_spiral,
 )
+from raydix.command import COUNT, SEED, status_of, workers
 from raydix.exact_spiral import MISSED, Judged, ends_of_words, judge
 from raydix.formats import STEPS_MAX
 from raydix.progress import track
+from raydix.scene import Spiral
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "exact.md"
 MARGIN = 64  # ulp of t by which the found cell is widened on either side
@@ -103,8 +104,9 @@ class Part(NamedTuple):
 KINDS = {"random": chords_through, "grazing": grazing, "at the ends": ends, "about the axis": axial}
 
 
-def one(surface, kind: str, count: int, seed: int) -> list[Part]:
-    """For each configuration a :class:`Part`."""
+def one(kind: str, count: int, work: tuple[Spiral, int]) -> list[Part]:
+    """For each configuration a :class:`Part` of a surface, with a seed for its chords."""
+    surface, seed = work
     h, e = KINDS[kind](surface, count, seed)
     results = []
     for rule, n1, steps in CONFIGS:
@@ -134,10 +136,10 @@ def rows(spirals: int, chords: int, seed: int, processes: int) -> Iterator[list[
     """Rows of the table."""
     dice = random.Random(seed)
     surfaces = [random_spiral(dice) for _ in range(spirals)]
-    with ProcessPoolExecutor(processes) as pool:
+    with workers(processes) as pool:
         for kind in KINDS:
             seeds = (seed * spirals + number for number in range(spirals))
-            work = pool.map(one, surfaces, repeat(kind), repeat(chords), seeds)
+            work = pool.imap(partial(one, kind, chords), zip(surfaces, seeds, strict=True))
             made = list(track(work, kind, spirals))
             for number, config in enumerate(CONFIGS):
                 yield cells(kind, config, [parts[number] for parts in made])
@@ -170,10 +172,10 @@ def main() -> int:
     A root missed by a chord that was given up, which its record tells, counts except with a digit a step.
     """
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--spirals", type=int, default=40, help="random spirals (default: 40)")
-    parser.add_argument("--chords", type=int, default=500, help="chords of each kind through each (default: 500)")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--spirals", type=COUNT, default=40, help="random spirals (default: 40)")
+    parser.add_argument("--chords", type=COUNT, default=500, help="chords of each kind through each (default: 500)")
+    parser.add_argument("--seed", type=SEED, default=1)
+    parser.add_argument("--processes", type=COUNT, default=2)
     parser.add_argument("--write", action="store_true", help="renew the table in docs/exact.md")
     args = parser.parse_args()
     for name, least in (("spirals", 1), ("chords", 1), ("processes", 1), ("seed", 0)):
@@ -188,4 +190,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

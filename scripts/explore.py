@@ -28,6 +28,7 @@ from exploration.measure import TOOLS, key, measure
 from exploration.pareto import FRONTS, Point, front, point_of, recommended
 from exploration.plot import plot
 from raydix.blocks import show_table, write_table
+from raydix.command import status_of
 from raydix.config import ConfigError
 from raydix.image import csv_writer, text_writer, write_files
 from raydix.progress import bars
@@ -219,4 +220,4 @@ def main(arguments=None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

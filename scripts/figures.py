@@ -17,6 +17,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from raydix.cells import subdivide
+from raydix.command import status_of
 from raydix.compile import camera_of, clip_box, compile_scene
 from raydix.config import Config
 from raydix.fit import families
@@ -138,4 +139,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

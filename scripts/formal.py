@@ -31,6 +31,7 @@ from rich.table import Table
 
 from formal_proofs import PROOFS
 from raydix.blocks import read_table, write_table
+from raydix.command import status_of
 from raydix.files import RTL, named, sources, top_modules, top_sources
 from raydix.progress import track
 from synth import ROOT, YOSYS, SynthError, digest, keep, package
@@ -378,4 +379,4 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -18,6 +18,7 @@ sys.path.insert(0, str(ROOT / "tb"))
 from mutation import campaign as work  # noqa: E402  (needs tb/ on the path)
 from mutation import schema, sites  # noqa: E402
 from raydix.blocks import read_table, write_table  # noqa: E402
+from raydix.command import COUNT, status_of  # noqa: E402
 from raydix.progress import bars  # noqa: E402
 
 EQUIVALENT = ROOT / "tb" / "mutants.toml"
@@ -115,12 +116,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("modules", nargs="*", help="names without rdx_ (default: all)")
     count_help = f"mutants of each module, at most (default: 45; of {', '.join(WHOLE)} all)"
-    parser.add_argument("--count", type=int, default=45, help=count_help)
+    parser.add_argument("--count", type=COUNT, default=45, help=count_help)
     parser.add_argument("--all", action="store_true", help="all mutants that the operators make")
     parser.add_argument("--mutant", type=int, action="append", help="only this one, of one module")
     parser.add_argument("--list", action="store_true", help="print the mutants, run nothing")
     parser.add_argument("--kept", action="store_true", help="run nothing, show what earlier runs have found")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="simulations at a time (default: the cores)")
+    parser.add_argument("--jobs", type=COUNT, default=os.cpu_count(), help="simulations at a time (default: the cores)")
     parser.add_argument("--write", action="store_true", help="renew the rows of these modules in docs/mutants.md")
     args = parser.parse_args()
     names = work.names()
@@ -187,4 +188,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

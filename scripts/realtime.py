@@ -17,14 +17,14 @@ import sys
 from pathlib import Path
 
 from raydix.blocks import show_table, write_table
+from raydix.command import COUNT, image_size, status_of, whole
 from raydix.compile import compile_scene
-from raydix.config import VECSUMS, Config, ConfigError
+from raydix.config import VECSUMS, Config
 from raydix.fit import families, frame_parameters
 from raydix.golden import trace_golden
 from raydix.processor import ALL, SKIPS, run_frames
 from raydix.progress import track
-from raydix.rtl import RtlError
-from raydix.scene import SceneError, load_scene
+from raydix.scene import load_scene
 from raydix.shade import compose
 from synth import PAGE as SIZES
 from synth import POINTS
@@ -127,12 +127,12 @@ def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: the paper's figure 2, or all)")
-    parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), metavar="WxH")
-    parser.add_argument("--n1", type=int)
-    parser.add_argument("--rings", type=int)
-    parser.add_argument("--lanes", type=int)
-    parser.add_argument("--vector-rings", type=int)
-    parser.add_argument("--beat", type=int)
+    parser.add_argument("--size", type=image_size, metavar="WxH")
+    parser.add_argument("--n1", type=whole(1, 4))
+    parser.add_argument("--rings", type=COUNT)
+    parser.add_argument("--lanes", type=COUNT)
+    parser.add_argument("--vector-rings", type=COUNT)
+    parser.add_argument("--beat", type=COUNT)
     table = parser.add_mutually_exclusive_group()
     table.add_argument("--work", action="store_true", help="steps done over those needed")
     table.add_argument("--skips", action="store_true", help="what each kind of skipping saves")
@@ -150,11 +150,7 @@ def main():
         header, row_of, name = SAVED, saved_row, "skips"
     every = sorted(SCENES.glob("*.toml"))
     scenes = args.scene or (every if args.work or args.skips else [SCENES / f"{name}.toml" for name in BUILT])
-    try:
-        results = [row_of(path, args) for path in track(scenes, "scenes")]
-    except (SceneError, ConfigError, RtlError) as error:
-        print(f"realtime: {error}", file=sys.stderr)
-        return 2
+    results = [row_of(path, args) for path in track(scenes, "scenes")]
     rows = [row for row, _ in results]
     show_table("Cycles of a frame", header, rows, ("scene",), 200)
     if args.write:
@@ -166,4 +162,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -20,6 +20,7 @@ from pathlib import Path
 
 import jinja2
 
+from raydix.command import status_of
 from raydix.image import ImageError, text_writer, write_files
 from reporting.documents import CHAPTERS, section
 from reporting.gallery import cards
@@ -92,4 +93,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -13,7 +13,9 @@ from rich.table import Table
 
 from raydix.blocks import write_table
 from raydix.chords import chord_quads, paper_float, random_chords, rates, trace_chords
+from raydix.command import COUNT, SEED, above, status_of
 from raydix.config import Config
+from raydix.image import text_writer, write_files
 from raydix.oracle import chord_roots, quadrics
 from raydix.progress import track
 from raydix.surfaces import form
@@ -54,9 +56,9 @@ def steps_text(mean):
 def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--chords", type=int, default=200_000, help="chords tried (default: 200000)")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--radius", type=float, default=1.0, help="of the sphere that the ends lie on (default: 1)")
+    parser.add_argument("--chords", type=COUNT, default=200_000, help="chords tried (default: 200000)")
+    parser.add_argument("--seed", type=SEED, default=1)
+    parser.add_argument("--radius", type=above(0), default=1.0, help="of the sphere that the ends lie on (default: 1)")
     parser.add_argument("--width", type=int, default=36, help="W, bits of a control point (default: 36)")
     parser.add_argument("--json", type=Path, help="write the figures there, too")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/accuracy.md")
@@ -81,9 +83,10 @@ def main():
     if args.write:
         write_table(ROOT / "docs" / "accuracy.md", "rules", [str(c.header) for c in table.columns], texts)
     if args.json:
-        args.json.write_text(json.dumps([[n1, k, label, r._asdict()] for n1, k, label, r in rows], indent=1))
+        text = json.dumps([[n1, k, label, r._asdict()] for n1, k, label, r in rows], indent=1)
+        write_files({args.json: text_writer(text)})
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -23,6 +23,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from raydix.blocks import show_table, write_table
+from raydix.command import COUNT, status_of
 from raydix.compile import compile_scene
 from raydix.config import Config, ConfigError
 from raydix.fit import families, frame_parameters
@@ -216,7 +217,7 @@ def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kind", nargs="*", help=f"{', '.join(KINDS)} (default: all)")
-    parser.add_argument("--repeats", type=int, default=7, help="runs of the golden model (default: 7)")
+    parser.add_argument("--repeats", type=COUNT, default=7, help="runs of the golden model (default: 7)")
     parser.add_argument("--no-rtl", dest="rtl", action="store_false", help="the golden model only")
     parser.add_argument("--write", action="store_true", help="renew docs/benchmarks.md and its picture")
     options = parser.parse_args(arguments)
@@ -258,4 +259,4 @@ def main(arguments=None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

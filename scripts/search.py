@@ -11,9 +11,11 @@ import numpy as np
 from raydix import stress, stress_spirals
 from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import compile_chords, spiral_config, trace_spiral
+from raydix.command import COUNT, SEED, status_of
 from raydix.compile_spiral import Oversize
 from raydix.config import Config
 from raydix.formats import STEPS_MAX
+from raydix.image import text_writer, write_files
 from raydix.oracle_spiral import spiral_chord_roots
 from raydix.progress import bars
 from raydix.segments import Segments, trace_segments, whole
@@ -203,9 +205,9 @@ def load_cases() -> dict:
 def main() -> int:
     """Command line; exit status 1 where a failure outside of the band was found."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--generations", type=int, default=150)
-    parser.add_argument("--rays", type=int, default=20_000, help="in a generation (default: 20000)")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--generations", type=COUNT, default=150)
+    parser.add_argument("--rays", type=COUNT, default=20_000, help="in a generation (default: 20000)")
+    parser.add_argument("--seed", type=SEED, default=1)
     parser.add_argument("--write", action="store_true", help="renew tb/cases.toml and the table in docs/stress.md")
     args = parser.parse_args()
     config, rows, items, failed = Config(units=1), [], {}, False
@@ -235,7 +237,7 @@ def main() -> int:
         failed |= bool(judge_chords(surface, h[None], e[None]).failed.any())
     show_table(f"search, seed {args.seed}", HEADER, rows, ("search",), 120)
     if args.write:
-        CASES.write_text(toml(items, spirals))
+        write_files({CASES: text_writer(toml(items, spirals))})
         write_table(ROOT / "docs" / "stress.md", "search", HEADER, rows)
     if failed:
         print("search: a ray was found on which the certified rule fails outside of the band", file=sys.stderr)
@@ -243,4 +245,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -27,6 +27,7 @@ from rich.console import Console
 from rich.table import Table
 
 from raydix.blocks import read_table, write_table
+from raydix.command import COUNT, SEED, status_of
 
 ROOT = Path(__file__).resolve().parents[1]
 TB = ROOT / "tb"
@@ -74,7 +75,12 @@ def simulate(names, jobs, seed):
     """Run the pytest tests under Icarus; the runs as :func:`bench.run` records them, and whether pytest is content."""
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder, "runs")
-        settings = {"SIMULATOR": "icarus", "RAYDIX_RECORD": str(record), "SEED": seed, "WAVES": ""}
+        settings = {
+            "SIMULATOR": "icarus",
+            "RAYDIX_RECORD": str(record),
+            "SEED": "" if seed is None else str(seed),
+            "WAVES": "",
+        }
         command = [sys.executable, "-m", "pytest", "-q", "-n", str(jobs), "--dist", "worksteal", *names]
         status = subprocess.run(command, env={**os.environ, **settings}, cwd=ROOT).returncode
         lines = record.read_text().splitlines() if record.exists() else []
@@ -99,8 +105,10 @@ def main(arguments=None):
     known = second.tested()
     parser = argparse.ArgumentParser(description="Module tests under Icarus Verilog, with four-state values.")
     parser.add_argument("module", nargs="*", help="all if none is named")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--seed", default=os.environ.get("SEED", ""), help="of all runs; one for each if not given")
+    parser.add_argument("--jobs", type=COUNT, default=2)
+    parser.add_argument(
+        "--seed", type=SEED, default=os.environ.get("SEED") or None, help="of all runs; one for each by default"
+    )
     parser.add_argument("--all", action="store_true", help="the slow parameter sets, too: hours")
     parser.add_argument("--write", action="store_true", help="renew the rows of docs/verification.md")
     options = parser.parse_args(arguments)
@@ -118,6 +126,9 @@ def main(arguments=None):
         print("second: all parameter sets of these modules are slow; allowed: --all", file=sys.stderr)
         return 2
     runs, content = simulate(names, options.jobs, options.seed)
+    if not runs:
+        print("second: no test came to a simulation; what pytest printed above says why", file=sys.stderr)
+        return 2
     rows, bad = table(runs, left), [run for run in runs if run["failed"]]
     shown = Table(*HEADER)
     for row in rows:
@@ -132,4 +143,4 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

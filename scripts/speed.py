@@ -9,13 +9,14 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from raydix.command import COUNT, status_of
 from raydix.compile import compile_scene
 from raydix.config import Config
 from raydix.fit import families
 from raydix.golden import trace_golden
 from raydix.progress import track
-from raydix.rtl import RtlError, build, trace_rtl
-from raydix.scene import SceneError, load_scene
+from raydix.rtl import build, trace_rtl
+from raydix.scene import load_scene
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -24,22 +25,18 @@ def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scene", nargs="?", type=Path, default=ROOT / "scenes" / "torus.toml")
-    parser.add_argument("--runs", type=int, default=21, help="runs of each (default: 21)")
-    parser.add_argument("--units", type=int, default=8, help="step units in the RTL (default: 8)")
+    parser.add_argument("--runs", type=COUNT, default=21, help="runs of each (default: 21)")
+    parser.add_argument("--units", type=COUNT, default=8, help="step units in the RTL (default: 8)")
     args = parser.parse_args()
-    try:
-        scene = load_scene(args.scene)
-        config = Config(units=args.units, rules="certified", **families(scene))
-        compiled = compile_scene(scene, config)
-        build(config)
-        # one and two threads take turns, so that noise hits both
-        golden = [
-            [trace_golden(compiled, config, n).seconds for n in (1, 2)] for _ in track(range(args.runs), "golden model")
-        ]
-        rtl = [trace_rtl(compiled, config).seconds for _ in track(range(max(1, args.runs // 4)), "RTL")]
-    except (SceneError, RtlError) as error:
-        print(f"speed: {error}", file=sys.stderr)
-        return 2
+    scene = load_scene(args.scene)
+    config = Config(units=args.units, rules="certified", **families(scene))
+    compiled = compile_scene(scene, config)
+    build(config)
+    # one and two threads take turns, so that noise hits both
+    golden = [
+        [trace_golden(compiled, config, n).seconds for n in (1, 2)] for _ in track(range(args.runs), "golden model")
+    ]
+    rtl = [trace_rtl(compiled, config).seconds for _ in track(range(max(1, args.runs // 4)), "RTL")]
     pixels = scene.camera.width * scene.camera.height
     table = Table(title=f"{scene.name}, {scene.camera.width}×{scene.camera.height}, {args.runs} runs")
     for name in ("", "median, ms", "fastest, ms", "slowest, ms", "Mpixel/s"):
@@ -57,4 +54,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

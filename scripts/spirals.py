@@ -21,6 +21,7 @@ from raydix.chords_spiral import (
     spiral_config,
     trace_spiral,
 )
+from raydix.command import COUNT, SEED, status_of
 from raydix.compile_spiral import NEVER
 from raydix.config import Config
 from raydix.formats import FORM_INDEX, ZONES
@@ -141,9 +142,9 @@ def show(title: str, header, rows) -> list[list[str]]:
 def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--spirals", type=int, default=120, help="random spirals (default: 120)")
-    parser.add_argument("--chords", type=int, default=10_000, help="chords through each (default: 10000)")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--spirals", type=COUNT, default=120, help="random spirals (default: 120)")
+    parser.add_argument("--chords", type=COUNT, default=10_000, help="chords through each (default: 10000)")
+    parser.add_argument("--seed", type=SEED, default=1)
     parser.add_argument("--write", action="store_true", help="renew the tables in docs/spirals.md")
     args = parser.parse_args()
     made = cases(args.spirals, args.chords, args.seed)
@@ -158,4 +159,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

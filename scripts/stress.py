@@ -5,7 +5,6 @@ import argparse
 import sys
 import zlib
 from collections import defaultdict
-from multiprocessing import get_context
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,6 +13,7 @@ import numpy as np
 from raydix import stress, stress_polynomials, stress_spirals
 from raydix.blocks import show_table, write_table
 from raydix.chords_spiral import compile_chords, spiral_config, trace_spiral
+from raydix.command import COUNT, SEED, status_of, workers
 from raydix.compile_spiral import Oversize
 from raydix.config import Config
 from raydix.exact import changes
@@ -178,7 +178,7 @@ def collect(todo: list[Job], processes: int) -> dict:
             for job in todo:
                 take(run(job), job.count)
         else:
-            with get_context("spawn").Pool(processes) as pool:
+            with workers(processes) as pool:
                 for job, result in zip(todo, pool.imap(run, todo), strict=True):
                     take(result, job.count)
     return joined
@@ -232,15 +232,13 @@ def at_limits(rays: int, seed: int, processes: int) -> tuple[list, int]:
 def main() -> int:
     """Command line; exit status 1 where the certified rule failed outside of the documented band."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--rays", type=int, default=790_000, help="of a full category (default: 790000, 10^7 in all)")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=2, help="processes (default: 2)")
+    parser.add_argument("--rays", type=COUNT, default=790_000, help="of a full category (default: 790000, 10^7 in all)")
+    parser.add_argument("--seed", type=SEED, default=1)
+    parser.add_argument("--jobs", type=COUNT, default=2, help="processes (default: 2)")
     parser.add_argument("--only", help="categories whose name contains this")
     parser.add_argument("--write", action="store_true", help="renew the tables and pictures of docs/stress.md")
     parser.add_argument("--pictures", type=Path, help="write pictures of the worst cases into this folder")
     args = parser.parse_args()
-    if args.rays < 1 or args.jobs < 1:
-        parser.error(f"--rays, --jobs: found {args.rays}, {args.jobs}; allowed: 1 or more")
     reference = Config(units=1)
     algebraic, spirals = list(stress.categories(4)), list(stress_spirals.CATEGORIES)
     names = [n for n in algebraic + spirals if not args.only or args.only in n]
@@ -277,4 +275,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

@@ -35,7 +35,9 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from raydix.blocks import read_table, write_table
+from raydix.command import status_of
 from raydix.files import RTL, parts, sources
+from raydix.image import text_writer, write_files
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "synth"
@@ -483,7 +485,8 @@ def main(arguments=None):
             if row.placed:
                 print(f"{row.name}: {slowest(row.placed['path'])}")
         if options.json:
-            options.json.write_text(json.dumps([as_json(row, options) for row in rows], indent=2) + "\n")
+            text = json.dumps([as_json(row, options) for row in rows], indent=2) + "\n"
+            write_files({options.json: text_writer(text)})
         if options.write:
             header = [column.replace("\n", " ") for column in COLUMNS[:-1]]
             cells = {row.name: texts(row)[:-1] for row in rows}
@@ -569,4 +572,4 @@ def as_json(row, options):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

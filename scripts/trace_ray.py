@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 from raydix.blocks import show_table
-from raydix.cli import image_size
+from raydix.command import image_size, status_of
 from raydix.compile import CompiledFrame, CompiledSurface, compile_scene
 from raydix.config import RULES, Config, ConfigError
 from raydix.fit import families
@@ -166,4 +166,4 @@ def main(arguments=None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

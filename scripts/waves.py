@@ -18,6 +18,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from raydix.command import status_of
 from raydix.image import ImageError, write_files
 from viewing.picture import draw, first_valid, period_of
 from viewing.signals import groups_of, read_signals
@@ -128,4 +129,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of(main))

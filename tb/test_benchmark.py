@@ -212,7 +212,7 @@ def test_transparent_surface_is_refused(script, tmp_path, capsys):
     [
         (["--size", "320"], "found '320'; allowed: WIDTHxHEIGHT"),
         (["--size", "320x240x3"], "allowed: WIDTHxHEIGHT"),
-        (["--repeats", "0"], "allowed: 1 or more"),
+        (["--repeats", "0"], "allowed: whole numbers, 1 or more"),
         (["--write", "--check"], "allowed: as the page has it"),
         (["torus.toml", "--write"], "allowed: as the page has it"),
         (["--kept", "--check"], "allowed: with --full, --out and --write"),

@@ -50,7 +50,7 @@ def test_page_has_every_type(script):
     "arguments, words",
     [
         (["spiral"], "found 'spiral'; allowed: plane, sphere"),
-        (["--chords", "0"], "found 0; allowed: 1 or more"),
+        (["--chords", "0"], "found '0'; allowed: whole numbers, 1 or more"),
         (["torus", "--write"], "allowed: with all of them"),
     ],
 )

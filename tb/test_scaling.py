@@ -64,7 +64,7 @@ def test_command(script, monkeypatch, capsys):
     "arguments, words",
     [
         (["colours"], "found 'colours'; allowed: pixels, surfaces, depth, unneeded"),
-        (["--repeats", "0"], "found 0; allowed: 1 or more"),
+        (["--repeats", "0"], "found '0'; allowed: whole numbers, 1 or more"),
         (["depth", "--write"], "allowed: with all four tables"),
     ],
 )

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generated blocks in files that are otherwise written by hand."""
 
+import os
 import re
 import sys
 from collections.abc import Container, Sequence
@@ -11,7 +12,7 @@ from rich.table import Table
 
 
 def replace_block(path: Path, begin: str, end: str, body: str, write: bool) -> bool:
-    """Bring the text between the lines ``begin`` and ``end`` of ``path`` up to date, if ``write``.
+    """Bring the text between the lines ``begin`` and ``end`` of ``path`` up to date, if ``write``: all or none.
 
     Returns whether it differed from ``body``. Raises ValueError where the markers are not there once each.
     """
@@ -21,7 +22,12 @@ def replace_block(path: Path, begin: str, end: str, body: str, write: bool) -> b
     head, rest = text.split(begin)
     wanted = head + begin + body + end + rest.split(end)[1]
     if write and wanted != text:
-        path.write_text(wanted)
+        part = path.with_name(f".{path.name}.part{os.getpid()}")
+        try:
+            part.write_text(wanted)
+            os.replace(part, path)
+        finally:
+            part.unlink(missing_ok=True)
     return wanted != text
 
 

@@ -4,7 +4,6 @@
 import argparse
 import json
 import os
-import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -14,28 +13,20 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
+from .command import INTERRUPTED, USER_ERRORS, image_size, text_of
 from .config import RULES, Config, ConfigError
 from .fit import families, frame_parameters
 from .formats import STEPS_MAX
 from .hits import FrameHits
-from .image import ImageError, frame_writers, write_files
+from .image import frame_writers, write_files
 from .progress import bars
-from .rtl import TOP, RtlError, build, top_parameters
-from .scene import Scene, SceneError, load_scene
+from .rtl import TOP, build, top_parameters
+from .scene import Scene, load_scene
 
 if TYPE_CHECKING:
     from .render import Verdict
 
-USER_ERRORS = (SceneError, ConfigError, ImageError, RtlError)
 REFERENCE_DIGITS = 24
-
-
-def image_size(text: str) -> tuple[int, int]:
-    """WIDTHxHEIGHT as an argument. Raises ArgumentTypeError."""
-    match = re.fullmatch(r"([0-9]{1,6})[xX×]([0-9]{1,6})", text)
-    if not match:
-        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: WIDTHxHEIGHT, for example 640x480")
-    return int(match[1]), int(match[2])
 
 
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
@@ -347,16 +338,16 @@ def main(argv: list[str] | None = None) -> int:
     try:
         commands = {"render": _render, "verify": _verify, "export": _export, "compare": _compare}
         return (commands | {"configure": _configure})[args.command](args)
+    except BrokenPipeError:
+        return 0
     except USER_ERRORS as error:
-        for line in str(error).splitlines():
+        for line in text_of(error).splitlines():
             print(f"raydix: {line}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         more = "; --resume goes on" if getattr(args, "frames", False) else ""
         print(f"raydix: interrupted; nothing half written{more}", file=sys.stderr)
-        return 130
-    except BrokenPipeError:
-        return 0
+        return INTERRUPTED
 
 
 if __name__ == "__main__":

@@ -215,7 +215,11 @@ def _collect(compiled: CompiledFrame, records: np.ndarray, every: bool = True) -
 
 
 def simulate(command, total: int, stall: int | None, wave: Path | None, progress) -> dict:
-    """Run a bench, ``command`` with its arguments; what it reports. See :func:`trace_rtl`."""
+    """Run a bench, ``command`` with its arguments; what it reports. See :func:`trace_rtl`.
+
+    The waveform has its name once the bench has ended, also where the simulation failed; interrupted, it leaves none.
+    """
+    part = wave and wave.with_name(f".{wave.stem}.part{os.getpid()}{wave.suffix}")
     if wave:
         try:
             wave.parent.mkdir(parents=True, exist_ok=True)
@@ -223,14 +227,20 @@ def simulate(command, total: int, stall: int | None, wave: Path | None, progress
             raise RtlError(f"{wave.parent}: cannot make the folder: {error.strerror}") from None
     command = [*map(str, command)]
     command += ["--stall", str(stall)] if stall is not None else []
-    command += ["--trace", str(wave)] if wave else []
+    command += ["--trace", str(part)] if part else []
     command += ["--progress", str(1 << 14)] if progress else []
     line = ""
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
-        assert run.stdout  # it is a pipe
-        for line in run.stdout:
-            if progress and line.startswith("progress "):
-                progress(int(line.split()[1]), total)
+    try:
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+            assert run.stdout  # it is a pipe
+            for line in run.stdout:
+                if progress and line.startswith("progress "):
+                    progress(int(line.split()[1]), total)
+        if wave and part and part.exists():
+            os.replace(part, wave)
+    finally:
+        if part:
+            part.unlink(missing_ok=True)
     if run.returncode:
         raise RtlError(f"simulation failed: {line.strip()}")
     return json.loads(line)
