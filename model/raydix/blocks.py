@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generated blocks in files that are otherwise written by hand."""
 
-import os
 import re
 import sys
 from collections.abc import Container, Sequence
@@ -9,6 +8,8 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
+
+from .replacing import replacing
 
 
 def replace_block(path: Path, begin: str, end: str, body: str, write: bool) -> bool:
@@ -22,12 +23,8 @@ def replace_block(path: Path, begin: str, end: str, body: str, write: bool) -> b
     head, rest = text.split(begin)
     wanted = head + begin + body + end + rest.split(end)[1]
     if write and wanted != text:
-        part = path.with_name(f".{path.name}.part{os.getpid()}")
-        try:
+        with replacing(path) as part:
             part.write_text(wanted)
-            os.replace(part, path)
-        finally:
-            part.unlink(missing_ok=True)
     return wanted != text
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from .command import INTERRUPTED, USER_ERRORS, image_size, text_of
+from .command import image_size, status_of
 from .config import RULES, Config, ConfigError
 from .fit import families, frame_parameters
 from .formats import STEPS_MAX
@@ -335,19 +335,9 @@ def _compare(args: argparse.Namespace) -> int:
 def main(argv: list[str] | None = None) -> int:
     """Run the command line. Exit status: 0 fine, 1 outputs differ, 2 bad input, 130 interrupted."""
     args = _parser().parse_args(argv)
-    try:
-        commands = {"render": _render, "verify": _verify, "export": _export, "compare": _compare}
-        return (commands | {"configure": _configure})[args.command](args)
-    except BrokenPipeError:
-        return 0
-    except USER_ERRORS as error:
-        for line in text_of(error).splitlines():
-            print(f"raydix: {line}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        more = "; --resume goes on" if getattr(args, "frames", False) else ""
-        print(f"raydix: interrupted; nothing half written{more}", file=sys.stderr)
-        return INTERRUPTED
+    commands = {"render": _render, "verify": _verify, "export": _export, "compare": _compare, "configure": _configure}
+    more = "; --resume goes on" if getattr(args, "frames", False) else ""
+    return status_of(lambda: commands[args.command](args), "raydix", more)
 
 
 if __name__ == "__main__":

@@ -79,13 +79,16 @@ def text_of(error: Exception) -> str:
     return str(error)
 
 
-def status_of(main: Callable[[], int]) -> int:
+def status_of(main: Callable[[], int], name: str | None = None, more: str = "") -> int:
     """Call a program's ``main``; the exit status.
 
     2, with a line on stderr, where it raises what a user did wrong or the system refuses; 130 where it is interrupted;
     0 where the reader of its output is gone.
+
+    name   of the program in these lines; the file's as it was called, if None
+    more   said, too, where it is interrupted
     """
-    name = Path(sys.argv[0]).stem
+    name = name or Path(sys.argv[0]).stem
     try:
         return main()
     except BrokenPipeError:
@@ -95,5 +98,5 @@ def status_of(main: Callable[[], int]) -> int:
             print(f"{name}: {line}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print(f"{name}: interrupted; nothing half written", file=sys.stderr)
+        print(f"{name}: interrupted; nothing half written{more}", file=sys.stderr)
         return INTERRUPTED

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO as oiio
 
+from .replacing import part_of
 from .shade import Frame
 
 CHANNELS = ("R", "G", "B", "Z", "normal.X", "normal.Y", "normal.Z", "surface")
@@ -45,7 +46,7 @@ def write_files(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
             if path.is_dir():
                 raise OSError("there is a folder of this name")
             path.parent.mkdir(parents=True, exist_ok=True)
-            work[path] = path.with_name(f".{path.stem}.part{os.getpid()}{path.suffix}")
+            work[path] = part_of(path)
             write(work[path])
         for path, part in work.items():
             os.replace(part, path)

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable
+from contextlib import nullcontext
 from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
@@ -34,6 +35,7 @@ from .files import (
     top_sources,
 )
 from .hits import FrameHits, SurfaceHits
+from .replacing import replacing
 
 BENCH = ROOT / "tb" / "frame"
 BUILD = ROOT / "build" / "rtl"
@@ -219,7 +221,6 @@ def simulate(command, total: int, stall: int | None, wave: Path | None, progress
 
     The waveform has its name once the bench has ended, also where the simulation failed; interrupted, it leaves none.
     """
-    part = wave and wave.with_name(f".{wave.stem}.part{os.getpid()}{wave.suffix}")
     if wave:
         try:
             wave.parent.mkdir(parents=True, exist_ok=True)
@@ -227,20 +228,15 @@ def simulate(command, total: int, stall: int | None, wave: Path | None, progress
             raise RtlError(f"{wave.parent}: cannot make the folder: {error.strerror}") from None
     command = [*map(str, command)]
     command += ["--stall", str(stall)] if stall is not None else []
-    command += ["--trace", str(part)] if part else []
     command += ["--progress", str(1 << 14)] if progress else []
     line = ""
-    try:
+    with replacing(wave) if wave else nullcontext() as part:
+        command += ["--trace", str(part)] if part else []
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
             assert run.stdout  # it is a pipe
             for line in run.stdout:
                 if progress and line.startswith("progress "):
                     progress(int(line.split()[1]), total)
-        if wave and part and part.exists():
-            os.replace(part, wave)
-    finally:
-        if part:
-            part.unlink(missing_ok=True)
     if run.returncode:
         raise RtlError(f"simulation failed: {line.strip()}")
     return json.loads(line)
