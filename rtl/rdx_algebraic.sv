@@ -71,7 +71,8 @@ module rdx_algebraic #(
         .W(W),
         .D(D),
         .Clip(Clip),
-        .Levels(N1)
+        .Levels(N1),
+        .HalveStages(HalveStages)
     ) u_sift (
         .clk_i,
         .rst_ni,

@@ -19,6 +19,7 @@ module rdx_cast #(
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter bit Clip = 1'b1,  // boxes cut surfaces
+    parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
@@ -101,6 +102,7 @@ module rdx_cast #(
         .Rings(Rings),
         .Rules(Rules),
         .Clip(Clip),
+        .HalveStages(HalveStages),
         .Sift(1'b1),
         .Limit(Limit)
     ) u_algebraic (

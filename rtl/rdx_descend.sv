@@ -7,13 +7,14 @@
 //
 // Formats    ends_i, ends_o: s2p30 and s1p31; point_o: the start of x, y, z. pick_i: number of the cell; close_i: to its middle.
 // Rounding   half up in each average.    Overflow   cannot happen: an average lies between its inputs.
-// Timing     P = N1/2 + 1 clocks of two moves each, the last maybe of one: close_i comes P - 1 clocks after ends_i and pick_i,
+// Timing     P = ceil((N1 + 1)/Moves) clocks of so many moves each, the last maybe of fewer: close_i comes P - 1 clocks after ends_i and pick_i,
 //            point_o after P + 1, ends_o after P + 3 clocks. One segment a clock; no reset, no stall.
 // Model      model/raydix/carry.py, and the middle in model/raydix/settle.py
 `default_nettype none
 
 module rdx_descend #(
-    parameter int unsigned N1 = 3
+    parameter int unsigned N1 = 3,
+    parameter int unsigned Moves = 2  // a clock
 ) (
     input  wire logic                    clk_i,
     input  wire rdx_pkg::ends_t          ends_i,
@@ -24,8 +25,8 @@ module rdx_descend #(
 );
   import rdx_pkg::*;
 
-  localparam int unsigned Moves = N1 + 1;  // the last one to the middle
-  localparam int unsigned Stages = N1 / 2 + 1;
+  localparam int unsigned All = N1 + 1;  // moves, the last one to the middle
+  localparam int unsigned Stages = (All + Moves - 1) / Moves;
   typedef logic signed [CoordWidth:0] distance_t;
   typedef logic signed [CoordWidth+1:0] move_t;  // and a bit that carries into it
 
@@ -41,7 +42,7 @@ module rdx_descend #(
     for (int unsigned s = 1; s < Stages; s++) pick[s] <= pick[s-1];
     closed_q <= close_i;
   end
-  logic [Moves-1:0] made[Stages];
+  logic [All-1:0] made[Stages];
   always_comb begin
     for (int unsigned s = 0; s < Stages; s++) begin
       made[s][N1] = close_i;
@@ -70,7 +71,7 @@ module rdx_descend #(
     assign whole[0] = distance_t'(stops[lane]) - distance_t'(starts[lane]);
     assign odd[0]   = 1'b0;
     for (genvar s = 0; s < Stages; s++) begin : gen_stage
-      localparam int unsigned Here = Moves - 2 * s < 2 ? 1 : 2;
+      localparam int unsigned Here = All - Moves * s < Moves ? All - Moves * s : Moves;
       localparam int unsigned Halvings = s == Stages - 1 ? Here - 1 : Here;
       coord_t start_q;
       distance_t whole_q;
@@ -82,7 +83,7 @@ module rdx_descend #(
         for (int unsigned i = 0; i < Here; i++) begin
           // ceil((d + c) / 2) = (d >>> 1) + (d[0] | c), floor((d + c) / 2) = (d >>> 1) + (d[0] & c)
           moves[i]  = {whole[s] >>> (i + 1), whole[s][i] | odds[i]};
-          odds[i+1] = made[s][2*s+i] ? whole[s][i] & odds[i] : whole[s][i] | odds[i];
+          odds[i+1] = made[s][Moves*s+i] ? whole[s][i] & odds[i] : whole[s][i] | odds[i];
         end
       end
       always_ff @(posedge clk_i) begin
@@ -91,16 +92,17 @@ module rdx_descend #(
         odd_q   <= odds[Halvings];
         for (int unsigned i = 0; i < Here; i++) begin
           moves_q[i] <= moves[i];
-          if (!made[s][2*s+i]) moves_q[i] <= '0;
+          if (!made[s][Moves*s+i]) moves_q[i] <= '0;
         end
       end
       assign whole[s+1] = whole_q;
       assign odd[s+1]   = odd_q;
-      if (Here == 2) begin : gen_two
-        assign start[s+1] = moved(moved(start_q, moves_q[0]), moves_q[1]);
-      end else begin : gen_one
-        assign start[s+1] = moved(start_q, moves_q[0]);
+      coord_t after[Here+1];
+      always_comb begin
+        after[0] = start_q;
+        for (int unsigned i = 0; i < Here; i++) after[i+1] = moved(after[i], moves_q[i]);
       end
+      assign start[s+1] = after[Here];
     end
 
     // ---- the stop: the start moved by the distance that is left, none in a cell that is closed ----

@@ -28,9 +28,6 @@ module rdx_fifo #(
     $fatal(1, "rdx_fifo: Depth = %0d; allowed: a power of two, 2 or more", Depth);
   end
 
-  (* no_rw_check *)
-  // a place is read only where it was written before
-  logic [W-1:0] memory[Depth];
   logic [Bits:0] write_place_q, read_place_q;
   wire filled = write_place_q != read_place_q;
   wire advance = !valid_o || ready_i;
@@ -50,12 +47,12 @@ module rdx_fifo #(
       if (advance) valid_o <= next_valid;
     end
   end
-  always_ff @(posedge clk_i) begin
-    if (store) memory[write_place_q[Bits-1:0]] <= data_i;
-    if (advance && next_valid) data_o <= next;
-  end
+  always_ff @(posedge clk_i) if (advance && next_valid) data_o <= next;
 
+  // ---- the memory: a place is read only where it was written before ----
   if (Depth > 16) begin : gen_block
+    (* ram_style = "block", no_rw_check *)
+    logic [W-1:0] memory[Depth];
     logic [W-1:0] read_q;
     logic read_valid_q;  // read_q holds the next entry
     assign fetch = filled && (!read_valid_q || advance);
@@ -66,8 +63,14 @@ module rdx_fifo #(
       else if (fetch) read_valid_q <= 1'b1;
       else if (advance) read_valid_q <= 1'b0;
     end
-    always_ff @(posedge clk_i) if (fetch) read_q <= memory[read_place_q[Bits-1:0]];
+    always_ff @(posedge clk_i) begin
+      if (store) memory[write_place_q[Bits-1:0]] <= data_i;
+      if (fetch) read_q <= memory[read_place_q[Bits-1:0]];
+    end
   end else begin : gen_distributed
+    (* no_rw_check *)
+    logic [W-1:0] memory[Depth];
+    always_ff @(posedge clk_i) if (store) memory[write_place_q[Bits-1:0]] <= data_i;
     assign fetch = filled && advance;
     assign next_valid = filled;
     assign next = memory[read_place_q[Bits-1:0]];

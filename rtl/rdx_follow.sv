@@ -6,14 +6,15 @@
 //
 // Formats    b_i, b_o: D+1 Bernstein coefficients, sWp0. pick_i: number of the cell.
 // Rounding   that of rdx_halve.    Overflow   cannot happen, as there.
-// Timing     latency N1*ceil(D/2) clocks, one segment a clock; no reset, no stall.
+// Timing     latency N1*Stages clocks, one segment a clock; no reset, no stall.
 // Model      model/raydix/select.py (certified: its walk)
 `default_nettype none
 
 module rdx_follow #(
-    parameter int unsigned W  = 36,
-    parameter int unsigned D  = 4,
-    parameter int unsigned N1 = 3
+    parameter int unsigned W = 36,
+    parameter int unsigned D = 4,
+    parameter int unsigned N1 = 3,
+    parameter int unsigned Stages = (D + 1) / 2  // clocks of a digit, 1 or more
 ) (
     input  wire logic                 clk_i,
     input  wire logic signed [ W-1:0] b_i   [D+1],
@@ -21,7 +22,6 @@ module rdx_follow #(
     output logic signed      [ W-1:0] b_o   [D+1]
 );
 
-  localparam int unsigned Stages = (D + 1) / 2;  // clocks of a digit
   for (genvar l = 0; l <= N1; l++) begin : gen_level
     logic signed [W-1:0] b[D+1];
     logic [N1-1:0] pick[1];  // the digits that are left, the next one on top

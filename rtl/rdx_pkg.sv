@@ -142,15 +142,26 @@ package rdx_pkg;
     return n1 * halve_stages + VecsumLatency + phases((1 << n1) - 1, lanes) - 1 + BoundLatency;
   endfunction
 
-  // Latency from the choice to the chosen cell, which is halved again, two rows of averages a clock.
-  function automatic int unsigned pick_latency(int unsigned n1, int unsigned d);
-    return n1 * ((d + 1) / 2);
+  // Clocks in which a chosen cell is halved: as many as each of the cells takes, two rows of averages a clock at least.
+  function automatic int unsigned follow_stages(int unsigned d, int unsigned halve_stages);
+    return halve_stages == 0 || halve_stages > (d + 1) / 2 ? (d + 1) / 2 : halve_stages;
+  endfunction
+
+  // Rows of averages in such a clock, and moves of the ends of the cell.
+  function automatic int unsigned follow_moves(int unsigned d, int unsigned halve_stages);
+    return d / follow_stages(d, halve_stages) > 2 ? d / follow_stages(d, halve_stages) : 2;
+  endfunction
+
+  // Latency from the choice to the chosen cell, which is halved again.
+  function automatic int unsigned pick_latency(int unsigned n1, int unsigned d, int unsigned halve_stages);
+    return n1 * follow_stages(d, halve_stages);
   endfunction
 
   // Latency of rdx_step: cells, select, pick, settle.
   function automatic int unsigned step_latency(int unsigned n1, int unsigned d, int unsigned halve_stages,
                                                int unsigned lanes, int unsigned rules);
-    return cells_latency(n1, d, halve_stages, lanes) + select_latency(n1, rules) + pick_latency(n1, d) + SettleLatency;
+    return cells_latency(n1, d, halve_stages, lanes) + select_latency(n1, rules) + pick_latency(n1, d, halve_stages) +
+        SettleLatency;
   endfunction
 
   // Largest shift of the step's normaliser, 2^b - 1: it covers a double root, which loses 2*n1 bits a step.

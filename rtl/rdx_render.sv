@@ -18,6 +18,7 @@ module rdx_render #(
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter bit Clip = 1'b1,  // boxes cut surfaces
+    parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
@@ -57,11 +58,10 @@ module rdx_render #(
   localparam int unsigned Lines = Layers > 1 ? 2 : 4;  // at work; four where they need little memory
 
   events_t events;
-
   // ---- rows ----
   logic busy, line_end, free, load_valid, full, idle, vector_idle, add;
   row_word_t load;
-  pixel_t y, add_count;
+  pixel_t y, add_count, look_x;
   logic [63:0] opaque;
   rdx_feed #(
       .D(D),
@@ -89,7 +89,6 @@ module rdx_render #(
   // ---- rays and hits ----
   logic hit_valid, hit_ready, look, limit_valid;
   line_t look_row;
-  pixel_t look_x;
   depth_t limit;
   logic [2:0] skipped;
   line_t [2:0] skipped_row;
@@ -101,6 +100,7 @@ module rdx_render #(
       .U(U),
       .Rules(Rules),
       .Clip(Clip),
+      .HalveStages(HalveStages),
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),

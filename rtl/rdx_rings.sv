@@ -5,7 +5,7 @@
 // that need one, while rings of one unit do no step in vain; one ring of U = K units is the paper's pipeline.
 //
 // Formats    as rdx_ring.
-// Timing     as rdx_ring; a hit waits four clocks more. Rays may overtake each other.
+// Timing     as rdx_ring; a hit waits five clocks more. Rays may overtake each other.
 // Reset      as rdx_ring.
 // Model      model/raydix/ring.py
 `default_nettype none
@@ -43,7 +43,7 @@ module rdx_rings #(
 );
   import rdx_pkg::*;
 
-  localparam int unsigned Queue = 16;  // records behind a ring: one that finds no place there goes round in vain
+  localparam int unsigned Queue = 32;  // records behind a ring, in block RAM; one that finds it full goes round
   if (Rings < 1 || Rings * U > 32) begin : gen_illegal_rings
     $fatal(1, "rdx_rings: Rings = %0d, U = %0d; allowed: 1 or more, 32 step units in all", Rings, U);
   end

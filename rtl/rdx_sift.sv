@@ -8,7 +8,7 @@
 //
 // Formats    ray_i, segment_i: as rdx_ring. rootless_i, boxes_i: 1 where that reason counts.
 // Timing     one ray a clock; ray_ready_o is a register: the queue has a place for every ray under way. A ray is at the output
-//            Levels*ceil(D/2) + 5 clocks later at the earliest (Queue = 16: + 4). rootless_o, beyond_o: a ray is dropped in this clock,
+//            Levels*HalveStages + 5 clocks later at the earliest (Queue = 16: + 4). rootless_o, beyond_o: a ray is dropped in this clock,
 //            row_o: lowest bits of its row.
 // Reset      control only.
 // Model      none: it changes no hit
@@ -21,6 +21,7 @@ module rdx_sift #(
     parameter int unsigned D = 4,
     parameter bit Clip = 1'b1,  // boxes cut surfaces
     parameter int unsigned Levels = 3,
+    parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Queue = 512,  // rays; a power of two
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
@@ -43,7 +44,7 @@ module rdx_sift #(
   import rdx_pkg::*;
 
   localparam int unsigned Cells = 1 << Levels;
-  localparam int unsigned Latency = Levels * ((D + 1) / 2) + 2;
+  localparam int unsigned Latency = Levels * HalveStages + 2;
   localparam type count_t = logic [$clog2(Queue):0];
   if (Queue < 16 || Queue < Latency + 4) begin : gen_illegal_queue
     $fatal(1, "rdx_sift: Queue = %0d; allowed: %0d or more", Queue, Latency + 4 > 16 ? Latency + 4 : 16);
@@ -87,7 +88,7 @@ module rdx_sift #(
         .W(W),
         .D(D),
         .N1(Levels),
-        .HalveStages((D + 1) / 2)
+        .HalveStages(HalveStages)
     ) u_cells (
         .clk_i,
         .b_i(b),

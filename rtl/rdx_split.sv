@@ -42,8 +42,9 @@ module rdx_split #(
   import rdx_pkg::*;
 
   localparam int unsigned Latency = N1 * HalveStages;
-  localparam int unsigned Follow = pick_latency(N1, D);
-  localparam int unsigned Moving = N1 / 2 + 1;  // clocks of the ends that are over when b_o is there
+  localparam int unsigned Follow = pick_latency(N1, D, HalveStages);
+  localparam int unsigned Moves = follow_moves(D, HalveStages);
+  localparam int unsigned Moving = (N1 + Moves) / Moves;  // clocks of the ends that are over when b_o is there
 
   // ---- control points; averages of values that are less by one are less by one ----
   localparam type value_t = logic signed [W+Below-1:0];
@@ -119,9 +120,10 @@ module rdx_split #(
     end
   end
   rdx_follow #(
-      .W (W),
-      .D (D),
-      .N1(N1)
+      .W(W),
+      .D(D),
+      .N1(N1),
+      .Stages(follow_stages(D, HalveStages))
   ) u_follow (
       .clk_i,
       .b_i(points),
@@ -139,7 +141,8 @@ module rdx_split #(
       .data_o(pick_q)
   );
   rdx_descend #(
-      .N1(N1)
+      .N1(N1),
+      .Moves(Moves)
   ) u_descend (
       .clk_i,
       .ends_i(ends_here),

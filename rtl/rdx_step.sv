@@ -43,7 +43,7 @@ module rdx_step #(
   localparam type cell_t = logic [N1-1:0];
   localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes);
   localparam int unsigned SelectLatency = select_latency(N1, Rules);
-  localparam int unsigned PickLatency = pick_latency(N1, D);
+  localparam int unsigned PickLatency = pick_latency(N1, D, HalveStages);
   if (K < 1 || N > 32) begin : gen_illegal_k
     $fatal(1, "rdx_step: K = %0d; allowed: 1 to %0d (N1*K is at most 32)", K, 32 / N1);
   end

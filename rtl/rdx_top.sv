@@ -17,6 +17,7 @@ module rdx_top #(
     parameter int unsigned U = 8,
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter bit Clip = 1'b1,  // boxes cut surfaces
+    parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
@@ -59,10 +60,10 @@ module rdx_top #(
   import rdx_pkg::*;
 
   frame_t next_frame, frame_q;
-  logic start_valid, abort, busy_q, bank_q, ready, done;
+  logic start_valid, abort, start_q, busy_q, bank_q, ready, done;
   wire start = start_valid && ready && !busy_q;
   error_e error;
-  surface_t error_slot;
+  surface_t error_slot, slot;
   counters_t counters;
   logic [2:0] done_q;  // while the last events are counted
   always_ff @(posedge clk_i) begin
@@ -78,7 +79,6 @@ module rdx_top #(
     end
   end
   always_ff @(posedge clk_i) if (start) frame_q <= next_frame;
-  logic start_q;
   always_ff @(posedge clk_i) start_q <= start && rst_ni;
 
   logic table_req, table_we, table_ack;
@@ -129,7 +129,6 @@ module rdx_top #(
       .material_data_o(material.data)
   );
 
-  logic [ 5:0] slot;
   logic [ 6:0] place;
   logic [63:0] word;
   rdx_table #(
@@ -159,6 +158,7 @@ module rdx_top #(
       .U(U),
       .Rules(Rules),
       .Clip(Clip),
+      .HalveStages(HalveStages),
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),

@@ -37,16 +37,26 @@ def cells(n1, degree, halve_stages, lanes):
     return n1 * halve_stages + VECSUM + phases((1 << n1) - 1, lanes) - 1 + BOUND
 
 
-def pick(n1, degree):
+def follow(degree, halve_stages):
+    """Clocks in which the chosen cell is halved."""
+    return min(halve_stages or 4, (degree + 1) // 2)
+
+
+def moves(degree, halve_stages):
+    """Moves of its ends a clock."""
+    return max(2, degree // follow(degree, halve_stages))
+
+
+def pick(n1, degree, halve_stages):
     """From the choice to the chosen cell."""
-    return n1 * ((degree + 1) // 2)
+    return n1 * follow(degree, halve_stages)
 
 
-def moving(n1):
+def moving(n1, moves=2):
     """Clocks of rdx_descend that are over when the control points of the chosen cell are there."""
-    return n1 // 2 + 1
+    return -(-(n1 + 1) // moves)
 
 
 def step(n1, degree, halve_stages, lanes, rules):
     """Of rdx_step."""
-    return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree) + SETTLE
+    return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree, halve_stages) + SETTLE

@@ -58,7 +58,7 @@ def closed(ends):
 async def equals_model(dut):
     """Every cell of each of many segments, as it is and closed, one a clock: the point first, then both ends."""
     random, n1 = bench.rng(), bench.parameter(dut, "N1")
-    moving = latency.moving(n1)
+    moving = latency.moving(n1, bench.parameter(dut, "Moves"))
     await bench.start(dut)
     segments = [random_ends(random) for _ in range(100)]
     items = [(ends, pick, close) for ends in segments for pick in range(1 << n1) for close in (0, 1)]
@@ -114,7 +114,10 @@ async def within_bound(dut):
             raise bench.mismatch(number, {"a": a, "b": b}, [f"cells {cells}", f"largest error {float(max(errors))}"])
 
 
-@pytest.mark.parametrize("n1", [1, 2, 3, 4])
-def test_descend(n1):
-    """Two to sixteen cells."""
-    bench.run(__name__, "rdx_descend", dict(N1=n1))
+SETS = [*(dict(N1=n1) for n1 in (1, 2, 3, 4)), dict(N1=3, Moves=4), dict(N1=4, Moves=3), dict(N1=1, Moves=4)]
+
+
+@pytest.mark.parametrize("parameters", SETS, ids=bench.label)
+def test_descend(parameters):
+    """Two to sixteen cells; two moves a clock, three, four, also more than there are."""
+    bench.run(__name__, "rdx_descend", parameters)

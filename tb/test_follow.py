@@ -5,7 +5,6 @@ import cocotb
 import pytest
 
 import bench
-import latency
 from raydix.cells import subdivide
 from raydix.halve import halve
 
@@ -31,11 +30,11 @@ def stimuli(dut, count):
 
 @cocotb.test
 async def equals_model(dut):
-    """Every cell of each of many segments, pick_latency clocks later, one a clock."""
-    n1, degree = bench.parameter(dut, "N1"), bench.parameter(dut, "D")
+    """Every cell of each of many segments, N1*Stages clocks later, one a clock."""
+    n1 = bench.parameter(dut, "N1")
     await bench.start(dut)
     await bench.pipeline(dut, stimuli(dut, 100), lambda item: {"b_o": model(item["b_i"], item["pick_i"], n1)},
-                         latency.pick(n1, degree))  # fmt: skip
+                         n1 * bench.parameter(dut, "Stages"))  # fmt: skip
 
 
 @cocotb.test
@@ -50,10 +49,16 @@ async def is_of_the_tree(dut):
             raise bench.mismatch(number, item, [f"in the tree: {wanted}"])
 
 
-SETS = [dict(W=36, D=4, N1=3), dict(W=16, D=2, N1=1), dict(W=48, D=3, N1=4), dict(W=8, D=1, N1=2)]
+SETS = [
+    dict(W=36, D=4, N1=3),
+    dict(W=16, D=2, N1=1),
+    dict(W=48, D=3, N1=4),
+    dict(W=8, D=1, N1=2),
+    dict(W=28, D=4, N1=3, Stages=1),
+]
 
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_follow(parameters):
-    """Two to sixteen cells, every degree."""
+    """Two to sixteen cells, every degree; a digit a clock."""
     bench.run(__name__, "rdx_follow", parameters)

@@ -23,11 +23,14 @@ ALGEBRAIC = Config(3, 8, 36, 4, 1, "both", rings=2, surfaces=16, layers=4, max_w
 SPIRALS = Config(3, 8, 36, 4, 2, "both", vecsum="general", lanes=1, surfaces=8, layers=2, max_width=48)
 HELIX = Config(1, 24, degree=0, units=1, rules="certified", vecsum="helix", vector_rings=2, surfaces=1, layers=1,
                max_width=52, beat=4)  # fmt: skip
+TORUS = Config(3, 8, 28, 4, 1, "certified", rings=4, clip=False, halve_stages=1, surfaces=1, layers=1, max_width=64,
+               beat=2)  # fmt: skip
 QUADRIC = Config(2, 10, 32, 2, 1, "paper", "paper", surfaces=1, layers=1, max_width=41)
 BUILDS = {
     "every algebraic surface": (ALGEBRAIC, None, (50, 37)),
     "both families": (SPIRALS, ("families", "shell", "flat_spiral", spirals.MIXED), (40, 30)),
     "helices, digit by digit, four pixels a beat": (HELIX, ("spiral",), (50, 38)),
+    "one torus, a halving a clock": (TORUS, ("torus", "cyclide"), (64, 40)),
     "one quadric by the paper's rule": (QUADRIC, ("hyperboloid", "sphere", "plane"), (41, 31)),
 }
 LONG = ("both families",)  # builds that `make test` leaves to `make regress`

@@ -141,7 +141,7 @@ async def a_ray_a_clock_until_full(dut):
     assert kept > 3 * queue and len(items) - kept > queue
     ports = [bench.Port(dut, "ray_i", bench.RAY)]
     ports.append(bench.Port(dut, "segment_i", bench.segment(bench.parameter(dut, "W"), bench.parameter(dut, "D"))))
-    waiting, quiet, latency = 0, 0, levels * ((bench.parameter(dut, "D") + 1) // 2) + 2
+    waiting, quiet, latency = 0, 0, levels * bench.parameter(dut, "HalveStages") + 2
     await FallingEdge(dut.clk_i)
     for ready, end in ((0, latency + 5), (1, 0)):
         dut.ray_ready_i.value, quiet = ready, 0
@@ -192,7 +192,7 @@ SETS = [
     dict(W=36, D=4, Levels=3, Queue=32),
     dict(W=36, D=2, Levels=1, Queue=16),
     dict(W=16, D=2, Levels=0, Queue=16),
-    dict(W=24, D=4, Levels=2, Queue=64),
+    dict(W=24, D=4, Levels=2, HalveStages=1, Queue=64),
     dict(W=36, D=2, Levels=2, Queue=16, Clip=0),
 ]
 

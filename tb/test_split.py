@@ -38,7 +38,7 @@ def model(dut, item):
     subdivide(cells, degree, n1)
     state = [0] * SIZE
     state[BOX : BOX + 3], state[C : C + 6] = box, segment["start"] + segment["stop"]
-    outside = outside_cells(state, [0] * ((1 << n1) + 1), n1)
+    outside = outside_cells(state, [0] * ((1 << n1) + 1), n1) if bench.parameter(dut, "Clip") else 0
     at = item["pick"] * degree
     ends = cell(segment, item["pick"], n1)
     chosen = (closed(ends) if item["close"] else ends) | dict(b=cells[at : at + degree + 1])
@@ -63,7 +63,7 @@ async def equals_model(dut):
     await given(dut, items, first, n1 * stages, n1 * stages + wait, structs)
     await bench.start(dut)  # the waiting lines begin anew
     chosen = n1 * stages + wait
-    late = chosen + latency.pick(n1, degree)
+    late = chosen + latency.pick(n1, degree, stages)
     await given_parts(dut, items, [answer[2] for answer in answers], late, chosen, structs)
 
 
@@ -122,10 +122,11 @@ SETS = [
     dict(N1=1, W=16, D=3, HalveStages=0, Wait=3, Below=1),
     dict(N1=1, W=16, D=2, HalveStages=1, Wait=3),
     dict(N1=4, W=48, D=3, HalveStages=0, Wait=5),
+    dict(N1=3, W=28, D=4, HalveStages=1, Wait=3, Below=1, Clip=0),
 ]
 
 
 @pytest.mark.parametrize("parameters", SETS, ids=bench.label)
 def test_split(parameters):
-    """The reference; less by one, for signs; two cells; sixteen without registers in the halvers."""
+    """The reference; less by one, for signs; two cells; sixteen without registers in the halvers; a halving a clock."""
     bench.run(__name__, "rdx_split", parameters)

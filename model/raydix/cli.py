@@ -37,6 +37,9 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
     parser.add_argument("--units", type=int, metavar="U", help="step units of an RTL ring (default: 8, at most K)")
     parser.add_argument("--rings", type=int, default=1, metavar="N", help="rings side by side (default: 1)")
+    parser.add_argument(
+        "--halve-stages", type=int, metavar="N", help="clocks of a halving (default: two rows of averages a clock)"
+    )
     parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
     parser.add_argument(
         "--vector-units", type=int, default=1, metavar="U", help="step units in a vector-sum ring (default: 1)"
@@ -97,6 +100,7 @@ def _config(args: argparse.Namespace, scene: Scene) -> Config:
         lanes=args.lanes,
         vector_units=args.vector_units,
         rings=args.rings,
+        halve_stages=args.halve_stages,
         vector_rings=args.vector_rings,
         **families(scene),
         **frame_parameters(scene, args.beat),
@@ -219,6 +223,7 @@ def _configure(args: argparse.Namespace) -> int:
         "D": {0: "no algebraic surface", 2: "quadrics only", 4: "a quartic"}[config.degree],
         "Rules": f"the {config.rule} rule only",
         "Clip": "a box cuts an algebraic surface" if config.clip else "no box cuts an algebraic surface",
+        "HalveStages": "asked for, or two rows of averages a clock",
         "Vecsum": {"none": "no spiral", "helix": "helices only", "general": "spirals that grow, or parts of a turn"}[
             config.vecsum
         ],

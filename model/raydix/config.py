@@ -29,6 +29,8 @@ class Config:
     vector_units  step units in each vector-sum ring, 1 to K
     vector_rings  vector-sum rings side by side; vector_rings*vector_units is at most 32
     clip   whether boxes can cut algebraic surfaces
+    halve_stages  clocks in which a cell is halved, 0 to 4: fewer take fewer registers and a slower clock, and change no
+           value; two rows of averages a clock if not given
     surfaces  of the processor: descriptors, and surface numbers, 1 to 64
     layers    hits of a pixel that it keeps, 1 to 8
     max_width  pixels of its longest line, a multiple of `beat`, up to 4,096
@@ -51,6 +53,7 @@ class Config:
     rings: int = 1
     vector_rings: int = 1
     clip: bool = True
+    halve_stages: int = None  # type: ignore[assignment]  # (degree + 1) // 2 once it is made
     surfaces: int = 64
     layers: int = 4
     max_width: int = 1920
@@ -86,6 +89,9 @@ class Config:
         check(16 <= self.width <= 48, "width", "16 to 48")
         check(isinstance(self.clip, bool), "clip", "True or False")
         check(self.degree in (0, 2, 4), "degree", "4 (quartics too), 2 (quadrics) or 0 (no algebraic surfaces)")
+        if self.halve_stages is None:
+            object.__setattr__(self, "halve_stages", (self.degree + 1) // 2)
+        check(isinstance(self.halve_stages, int) and 0 <= self.halve_stages <= 4, "halve_stages", "0 to 4")
         check(self.vecsum in VECSUMS, "vecsum", "none, helix or general")
         check(self.degree or self.vecsum != "none", "degree", "2 or 4 unless vecsum is helix or general")
         check(1 <= self.lanes < self.cells, "lanes", f"1 to {self.cells - 1} (J - 1)")
@@ -116,9 +122,12 @@ class Config:
         return 1 << self.n1
 
     def with_(self, **changes) -> "Config":
-        """A copy with other values; with another `n1` all lanes, with other `steps` all of them, unless given."""
+        """A copy with other values; with another `n1` all lanes, with other `steps` all of them, with another
+        `degree` its clocks of a halving, unless given."""
         if "n1" in changes:
             changes = {"lanes": None, **changes}
+        if "degree" in changes:
+            changes = {"halve_stages": None, **changes}
         if "steps" in changes:
             changes = {"k_stop": None, **changes}
         return replace(self, **changes)

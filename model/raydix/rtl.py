@@ -73,6 +73,7 @@ def parameters(config: Config) -> dict[str, int]:
         "U": config.units,
         "Rules": RULES[config.rules],
         "Clip": int(config.clip),
+        "HalveStages": config.halve_stages,
         "Vecsum": VECSUMS[config.vecsum],
         "Lanes": config.lanes,
         "VectorUnits": config.vector_units,
