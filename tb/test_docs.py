@@ -339,8 +339,17 @@ def test_set_up_is_this():
 
 
 def test_regression_is_this():
-    """`make test`, `make regress` and `.ci/run` start pytest, with the seed that they are given."""
-    for command, wanted in (("make -n test SEED=5", "not long"), ("make -n regress SEED=5", "regress.xml")):
+    """`make test`, `make regress` and `.ci/run` start pytest, with the seed that they are given; what takes long is run
+    by regress and by ALL=1."""
+    for command, file, short in (
+        ("make -n test SEED=5", "test.xml", True),
+        ("make -n test SEED=5 ALL=1", "test.xml", False),
+        ("make -n test SEED=5 T=ring", "ring.xml -v tb/test_ring.py", True),
+        ("make -n test SEED=5 T=rdx_ring ALL=1", "ring.xml -v tb/test_ring.py", False),
+        ("make -n regress SEED=5", "regress.xml", False),
+    ):
         said = subprocess.run(shlex.split(command), cwd=ROOT, capture_output=True, text=True).stdout
-        assert "-m pytest" in said and wanted in said and 'SEED="5"' in said
+        said = said.replace("\\\n", "")
+        assert "-m pytest" in said and 'SEED="5"' in said and f"build/results/{file} " in f"{' '.join(said.split())} "
+        assert ('-m "not long"' in said, 'RAYDIX_SHORT="1"' in said) == (short, short), command
     assert "make test SEED=" in (ROOT / ".ci" / "run").read_text()
