@@ -34,13 +34,14 @@ render: $(READY) ## golden model and RTL render the paper's figure 2, or SCENE=,
 gallery: $(READY) ## the same for every scene in scenes/
 	@$(BIN)/raydix verify scenes/*.toml $(ARGS)
 
-test: $(READY) ## the regression without what is marked long; one file as a whole (T=<module> SEED=<n> WAVES=1 JOBS=2)
+test: $(READY) ## the regression without what takes long, or one file of it (T=<module> SEED=<n> WAVES=1 JOBS=2 ALL=1: what takes long, too)
 	@[ -z "$(T)" ] || [ -f "tb/test_$(MODULE).py" ] || { \
 	  echo "make test: found T=$(T); allowed: $(patsubst tb/test_%.py,%,$(wildcard tb/test_*.py))" >&2; exit 2; }
-	@SEED="$(SEED)" WAVES="$(WAVES)" $(TESTS)/$(if $(T),$(MODULE),test).xml $(if $(T),-v tb/test_$(MODULE).py,-m "not long")
+	@SEED="$(SEED)" WAVES="$(WAVES)" RAYDIX_SHORT="$(if $(ALL),,1)" $(TESTS)/$(if $(T),$(MODULE),test).xml \
+	  $(if $(T),-v tb/test_$(MODULE).py) $(if $(ALL),,-m "not long")
 
 regress: $(READY) ## every test (SEED=<n> JOBS=2)
-	@SEED="$(SEED)" WAVES= $(TESTS)/regress.xml
+	@SEED="$(SEED)" WAVES= RAYDIX_SHORT= $(TESTS)/regress.xml
 
 second: $(READY) ## the module tests under Icarus Verilog, with four-state values (T=<module> SEED=<n> JOBS=2 ARGS=)
 	@$(BIN)/python scripts/second.py $(MODULE) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) $(ARGS)

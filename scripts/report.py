@@ -73,13 +73,23 @@ def page(render: Path, results: Path) -> str:
     )
 
 
+def folder(text: str) -> Path:
+    """A folder as an argument. Raises ArgumentTypeError."""
+    path = Path(text)
+    if not path.is_dir():
+        raise argparse.ArgumentTypeError(
+            f"found {'the file ' * path.exists()}'{text}'; allowed: a folder that is there"
+        )
+    return path
+
+
 def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     folders = (("render", "of scenes"), ("results", "of test results"))
     for name, what in folders:
         default = ROOT / "build" / name
-        parser.add_argument(f"--{name}", type=Path, default=default, help=f"folder {what} (default: build/{name})")
+        parser.add_argument(f"--{name}", type=folder, default=default, help=f"folder {what} (default: build/{name})")
     parser.add_argument("--out", type=Path, default=OUT, metavar="FILE", help="default: build/report.html")
     args = parser.parse_args()
     try:

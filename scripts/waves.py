@@ -6,7 +6,8 @@
     scripts/waves.py "ring[N1=1-K=6"              the first whose name has this
     scripts/waves.py --file build/waves/ring.vcd  a waveform that is there
 
-Beside the waveform (build/waves/<test>.vcd): <test>.gtkw, a save file of GTKWave; <test>.sucl, commands of Surfer;
+Beside the waveform (build/waves/<test>.vcd): <test>.gtkw, a save file of GTKWave; <test>.sucl, commands of Surfer, for
+<test>-fixed.vcd, the waveform with the point of fixed-point values in their ranges;
 <test>-reals.vcd, the same signals in groups with fixed-point values as real numbers; <test>.png, the module's ports.
 
 Exit status 0; 1: the test failed, its waveform is shown all the same; 2: bad input, or there is no waveform.
@@ -22,10 +23,11 @@ from raydix.command import status_of
 from raydix.image import ImageError, write_files
 from viewing.picture import draw, first_valid, period_of
 from viewing.signals import groups_of, read_signals
-from viewing.viewers import write_gtkwave, write_reals, write_surfer
+from viewing.viewers import write_fixed, write_gtkwave, write_reals, write_surfer
 
 ROOT = Path(__file__).resolve().parents[1]
 WAVES = ROOT / "build" / "waves"
+WRITTEN = ("-reals", "-fixed")  # waveforms made of another one
 
 
 class WavesError(RuntimeError):
@@ -55,7 +57,7 @@ def run(name: str, seed: str | None) -> tuple[int, Path]:
     settings = {**os.environ, "WAVES": "vcd", **({"SEED": seed} if seed else {})}
     print(f"waves: {name} with a waveform …", file=sys.stderr, flush=True)
     done = subprocess.run([sys.executable, "-m", "pytest", "-q", name], cwd=ROOT, env=settings, stdout=sys.stderr)
-    new = [p for p in WAVES.glob("*.vcd") if before.get(p) != p.stat().st_mtime_ns and not p.stem.endswith("-reals")]
+    new = [p for p in WAVES.glob("*.vcd") if before.get(p) != p.stat().st_mtime_ns and not p.stem.endswith(WRITTEN)]
     if not new:
         raise WavesError(f"{name}: found no waveform; allowed: a test that simulates a module")
     newest = max(new, key=lambda path: path.stat().st_mtime_ns)
@@ -75,7 +77,8 @@ def show(wave: Path, start: int | None, clocks: int) -> dict[Path, str]:
     begin = first_valid(wave, groups, 1 << 62) - 2 * period if start is None else start * period
     begin = max(0, begin)
     until = begin + clocks * period
-    paths = {suffix: wave.with_name(f"{wave.stem}{suffix}") for suffix in (".gtkw", ".sucl", "-reals.vcd", ".png")}
+    written = (".gtkw", ".sucl", "-fixed.vcd", "-reals.vcd", ".png")
+    paths = {suffix: wave.with_name(f"{wave.stem}{suffix}") for suffix in written}
 
     def text(write, *arguments):
         def into(work):
@@ -88,14 +91,16 @@ def show(wave: Path, start: int | None, clocks: int) -> dict[Path, str]:
     write_files(
         {
             paths[".gtkw"]: text(write_gtkwave, wave, groups, begin, period),
-            paths[".sucl"]: text(write_surfer, wave, groups),
+            paths[".sucl"]: text(write_surfer, groups),
+            paths["-fixed.vcd"]: text(write_fixed, wave),
             paths["-reals.vcd"]: text(write_reals, wave, groups, until),
             paths[".png"]: lambda work: draw(wave, groups, begin, until, period, title, work),
         }
     )
     return {
         paths[".gtkw"]: f"gtkwave {paths['.gtkw']}",
-        paths[".sucl"]: f"surfer -c {paths['.sucl']} {wave}",
+        paths[".sucl"]: f"surfer -c {paths['.sucl']} {paths['-fixed.vcd']}",
+        paths["-fixed.vcd"]: "for Surfer: the waveform with the point of fixed-point values in their ranges",
         paths["-reals.vcd"]: "any viewer: the same signals in groups, fixed-point values as real numbers",
         paths[".png"]: "a picture of the module's ports",
     }

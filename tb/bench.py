@@ -11,6 +11,7 @@ import hashlib
 import itertools
 import os
 import random
+import re
 import secrets
 import shutil
 import subprocess
@@ -112,12 +113,26 @@ def build(toplevel, parameters, waves=None):
     return target
 
 
-def run(module, toplevel, parameters=None, checks=None):
+def label_of(checks):
+    """Name of a list of checks, in that of a file: the first, and how many more."""
+    return checks[0].replace("/", "-") + (f"-and-{len(checks) - 1}-more" if len(checks) > 1 else "")
+
+
+def kept(checks, later):
+    """Of the cocotb tests ``checks``, or all, those that none of the patterns ``later`` fits: (names, None) or
+    (None, a pattern)."""
+    if checks:
+        return [name for name in checks if not any(re.fullmatch(pattern, name) for pattern in later)], None
+    return None, rf"^\w+\.(?!(?:{'|'.join(later)})$)" if later else None
+
+
+def run(module, toplevel, parameters=None, checks=None, later=()):
     """Build ``toplevel``, run the cocotb tests of the test file ``module`` in it; raise where one fails or none ran.
 
     module      name of the calling test file: ``__name__``
     parameters  of the toplevel; the cocotb tests read them from the design
     checks      names of the cocotb tests to be run; all if not given
+    later       those, as patterns of names, that `make test` leaves to `make regress` (RAYDIX_SHORT)
     The environment variables SEED and WAVES are those of ``make test``; WAVES=vcd or fst chooses the kind of waveform.
     """
     from cocotb_tools.runner import get_results, get_runner
@@ -128,8 +143,10 @@ def run(module, toplevel, parameters=None, checks=None):
     checks = second.chosen(module, checks) if icarus else checks
     parameters = parameters or {}
     seed = int(os.environ.get("SEED") or secrets.randbelow(1 << 31))
-    name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{'-'.join(checks)}" if checks else "")
-    replay = f"make test T={module.removeprefix('test_')} SEED={seed}"
+    name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{label_of(checks)}" if checks else "")
+    short = bool(os.environ.get("RAYDIX_SHORT")) and not icarus and not os.environ.get(coverpoints.MANIFEST)
+    checks, pattern = kept(checks, later if short else ())
+    replay = f"make test T={module.removeprefix('test_')} SEED={seed}{'' if short else ' ALL=1'}"
     print(f"{name}: SEED={seed}, replay: {replay}")
     wanted = "" if icarus else os.environ.get("WAVES", "").strip("0")
     waves = wanted and (wanted if wanted in ("vcd", "fst") else "fst" if has_fst() else "vcd")
@@ -158,7 +175,8 @@ def run(module, toplevel, parameters=None, checks=None):
             try:
                 get_runner("icarus" if icarus else "verilator").test(
                     test_module=module, hdl_toplevel=toplevel, hdl_toplevel_lang="verilog", build_dir=target,
-                    test_dir=folder, results_xml=str(results), seed=seed, test_args=arguments, testcase=checks,
+                    test_dir=folder, results_xml=str(results), seed=seed, test_args=arguments,
+                    testcase=checks, test_filter=pattern,
                     extra_env={"RAYDIX_INTERPRET": "1", "RAYDIX_REPLAY": replay, "COCOTB_REWRITE_ASSERTION_FILES": ""},
                 )  # fmt: skip
             except RuntimeError as error:
@@ -169,9 +187,11 @@ def run(module, toplevel, parameters=None, checks=None):
             bad = [c.get("name") for c in cases if c.find("failure") is not None or c.find("error") is not None]
             second.record(module=toplevel, parameters=parameters, seed=seed, passed=count - failed, failed=bad)
             executed = count - len([c for c in cases if c.find("skipped") is not None])
+            lost = [] if short else [p for p in later if not any(re.fullmatch(p, c.get("name")) for c in cases)]
             if counts and not failed and not ended:
                 coverpoints.keep(Path(folder, "counts"), counts)
                 coverpoints.note(counts)
+    assert not lost or icarus, f"{name}: left to the long run, but no check: {', '.join(lost)}"
     assert executed >= max(1, len(checks or ())), f"{name}: {executed} checks were executed"
     assert not failed and not ended, f"{name}: {failed} of {count} failed: {', '.join(map(str, bad))}{ended}; {replay}"
 

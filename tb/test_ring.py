@@ -460,7 +460,7 @@ CASES = [
     dict(N1=3, K=8, W=36, D=4, U=1, Rules=BOTH, Limit=1),
     dict(N1=1, K=6, W=36, D=2, U=6, Rules=CERTIFIED, Limit=1),
     dict(N1=2, K=4, W=36, D=4, U=1, Rules=CERTIFIED, Clip=0, HalveStages=1),
-    dict(N1=2, K=5, W=24, D=4, U=3, Rules=BOTH),
+    pytest.param(dict(N1=2, K=5, W=24, D=4, U=3, Rules=BOTH), marks=pytest.mark.long),
     dict(N1=4, K=3, W=48, D=4, U=2, Rules=BOTH),
     dict(N1=1, K=4, W=24, D=2, U=2, Rules=PAPER_RULE),
 ]

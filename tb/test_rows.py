@@ -230,7 +230,15 @@ async def largest_frame(dut):
     await whole(dut, random, walking.Frame(random, 1, 1, [(0, 0, 0, 0)], [QUADRIC]))
 
 
-@pytest.mark.parametrize("slots", [1, 5, 64])
+# What takes long and depends on other things than the slots, or hardly: left to make regress where another has it.
+LATER = {
+    1: ("abort_.*", "equals_model/.*free=1.0/.*"),
+    5: ("largest_frame", "equals_model/stall=0.0/.*"),
+    64: ("largest_frame", "abort_.*", "error_ends_the_frame", "equals_model/(stall=0.0/.*|.*free=1.0/.*|.*skip=True)"),
+}
+
+
+@pytest.mark.parametrize("slots", LATER)
 def test_rows(slots):
     """One slot, a number that is no power of two, and the largest."""
-    bench.run(__name__, "rdx_rows", dict(Slots=slots))
+    bench.run(__name__, "rdx_rows", dict(Slots=slots), later=LATER[slots])

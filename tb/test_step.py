@@ -389,7 +389,7 @@ SETS = [
     dict(N1=3, K=8, W=36, D=4, Rules=CERTIFIED_ONLY),
     dict(N1=1, K=24, W=36, D=2, Rules=CERTIFIED_ONLY),
     dict(N1=3, K=8, W=36, D=4, Rules=PAPER_ONLY, HalveStages=4),
-    dict(N1=1, K=32, W=16, D=2, Rules=BOTH),
+    pytest.param(dict(N1=1, K=32, W=16, D=2, Rules=BOTH), marks=pytest.mark.long),
     dict(N1=2, K=12, W=48, D=3, Rules=BOTH, HalveStages=1),
     dict(N1=4, K=8, W=48, D=2, Rules=BOTH),
     dict(N1=3, K=8, W=28, D=4, Rules=CERTIFIED_ONLY, Clip=0, HalveStages=1),
@@ -406,8 +406,8 @@ VECTOR_SETS = [
     dict(N1=1, K=32, Lanes=1, General=0, Rules=BOTH),
     dict(N1=2, K=5, Lanes=1, General=1, Rules=CERTIFIED_ONLY),
     dict(N1=3, K=8, Lanes=7, General=0, Rules=BOTH),
-    dict(N1=3, K=8, Lanes=3, General=1, Rules=BOTH),
-    dict(N1=4, K=8, Lanes=4, General=1, Rules=PAPER_ONLY),
+    pytest.param(dict(N1=3, K=8, Lanes=3, General=1, Rules=BOTH), marks=pytest.mark.long),
+    pytest.param(dict(N1=4, K=8, Lanes=4, General=1, Rules=PAPER_ONLY), marks=pytest.mark.long),
 ]
 
 

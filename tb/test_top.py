@@ -305,4 +305,4 @@ async def registers_from_end_to_end(dut):
 
 def test_top():
     """A small processor: quadrics, three surfaces, two pixels a beat."""
-    bench.run(__name__, "rdx_top", top_parameters(CONFIG))
+    bench.run(__name__, "rdx_top", top_parameters(CONFIG), later=["reset_in_a_frame/after=(200|2500)"])

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from vcd.reader import TokenKind, tokenize
 
 from raydix.formats import COORD_FRAC, VECTOR_FRAC, VECTOR_WIDTH
 from raydix.image import read_image
@@ -81,6 +82,7 @@ def test_files(wave):
     assert [line.split(":")[0] for line in done.stdout.splitlines()[1:]] == [
         "thing.gtkw",
         "thing.sucl",
+        "thing-fixed.vcd",
         "thing-reals.vcd",
         "thing.png",
     ]
@@ -96,9 +98,93 @@ def test_files(wave):
         "between registers",
         "u_part",
     ]
-    commands = wave.with_suffix(".sucl").read_text().splitlines()
-    assert commands[0] == f"load_file {wave}" and "variable_add rdx_thing.item_i.t" in commands
-    assert commands.index("divider_add inputs") < commands.index("variable_add rdx_thing.valid_i")
+
+
+class Surfer:
+    """What Surfer makes of a command file, by its sources (0.4, 0.5): the items, each with its format.
+
+    A line is a word and what is left (fzcmd.rs); "#" and ";" end a command (batch_commands.rs). An item is focused by
+    its place, in digits from a to p (util.rs), and a new one comes behind the focused one (wave_data.rs).
+    """
+
+    FORMATS = {"Signed fixed point": True, "Unsigned fixed point": False}  # translation/numeric_translators.rs
+
+    def __init__(self, wave, commands):
+        self.variables = {}  # name and index -> signal, as Surfer's own reader has them
+        pywellen = pytest.importorskip("pywellen", reason="pywellen, Surfer's reader, has no wheel here")
+        for variable in pywellen.Waveform(str(wave)).all_vars():
+            self.variables.setdefault(variable.full_name, variable)
+        self.items, self.focus = [], None
+        for command in (part for line in commands.splitlines() for part in line.split("#")[0].split(";") if part):
+            word, rest = re.fullmatch(r"(\w+) ?(.*)", command).groups()
+            getattr(self, word)(rest)
+
+    def divider_add(self, name):
+        """Its name is a single word."""
+        assert re.fullmatch(r"\w+", name) and self.focus is None, name
+        self.items.append([name, None])
+
+    def variable_add(self, path):
+        """A trailing index in brackets is none of the name, unless it is all of it (wave_container.rs)."""
+        assert re.sub(r"(?<=[^.])\[\d+\]$", "", path) in self.variables and self.focus is None, path
+        self.items.append([path, None])
+
+    def item_focus(self, item):
+        """What follows the place and a line is for the eye; it names the item here."""
+        digits, _, name = item.partition("_")
+        self.focus = int(digits.translate(str.maketrans("abcdefghijklmnop", "0123456789abcdef")), 16)
+        assert self.items[self.focus][0].replace(".[", "[").endswith(f".{name}"), item
+
+    def item_set_format(self, form):
+        """A name of the list, of the focused item."""
+        self.items[self.focus][1] = self.FORMATS[form]
+
+    def item_unfocus(self, rest):
+        """Without a parameter."""
+        assert not rest
+        self.focus = None
+
+    def zoom_fit(self, rest):
+        """Without a parameter."""
+        assert not rest
+
+
+def test_surfer(wave):
+    """Surfer finds every signal of the command file; fixed-point numbers have their format, other signals none."""
+    assert command("--file", wave).returncode == 0
+    opened = Surfer(wave.with_name("thing-fixed.vcd"), wave.with_suffix(".sucl").read_text())
+    assert opened.items == [
+        ["clock", None], ["rdx_thing.clk_i", None], ["rdx_thing.rst_ni", None],
+        ["inputs", None], ["rdx_thing.item_i.t", False], ["rdx_thing.item_i.level", None],
+        ["rdx_thing.point_i.[1]", True], ["rdx_thing.valid_i", None],
+        ["outputs", None], ["rdx_thing.b_o.[0]", True],
+        ["stage_1", None], ["rdx_thing.depth_q", True], ["stage_2", None], ["rdx_thing.sum_qq", None],
+        ["between_registers", None], ["rdx_thing.sum", None],
+        ["u_part", None], ["rdx_thing.u_part.ready_o", None], ["rdx_thing.u_part.valid_i[2]", None],
+    ]  # fmt: skip
+    with scripts("viewing.viewers") as viewers:
+        assert [viewers.surfer_index(place) for place in (0, 9, 15, 16, 0x1AF)] == ["a", "j", "p", "ba", "bkp"]
+
+
+def test_surfer_point(wave):
+    """Surfer reads a fixed-point number by the least index of its range; all else is the waveform as it was."""
+    assert command("--file", wave).returncode == 0
+    fixed = wave.with_name("thing-fixed.vcd")
+    with fixed.open("rb") as file:
+        declared = [token.var for token in tokenize(file) if token.kind is TokenKind.VAR]
+    with scripts("viewing.formats") as formats:
+        for var in declared:
+            number = formats.number_of(var.reference, var.size)
+            if isinstance(var.bit_index, tuple):
+                least = -number.fraction if number else 0
+                assert var.bit_index == (least + var.size - 1, least), var
+            else:
+                assert number is None, var
+    ranges = {var.reference: var.bit_index for var in declared}
+    assert ranges["t"] == (-1, -24) and ranges["point_i[1]"] == (31 - COORD_FRAC, -COORD_FRAC)
+    assert ranges["level"] == (4, 0)
+    zero = [re.sub(r"\[-?\d+:-?\d+\]", "[]", path.read_text()) for path in (wave, fixed)]
+    assert zero[0] == zero[1]
 
 
 def test_reals(wave):
@@ -157,8 +243,10 @@ def test_of_a_test():
     wave = next(Path(line) for line in done.stdout.splitlines() if line.endswith(".vcd"))
     with scripts("viewing.signals") as signals:
         paths = {s.path for s in signals.read_signals(wave)}
-    named = re.findall(r"^variable_add (.*)", wave.with_suffix(".sucl").read_text(), re.M)
-    assert len(named) > 40 and set(named) <= paths
     saved = re.findall(r"^\+\{.*?\} (\S+)$", wave.with_suffix(".gtkw").read_text(), re.M)
-    assert {re.sub(r"\[\d+:0\]$", "", name) for name in saved} == set(named)
+    named = {re.sub(r"\[\d+:0\]$", "", name) for name in saved}
+    assert len(named) > 40 and named <= paths
+    opened = Surfer(wave.with_name(f"{wave.stem}-fixed.vcd"), wave.with_suffix(".sucl").read_text())
+    assert {name.replace(".[", "[") for name, _ in opened.items if "." in name} == named
+    assert 20 < sum(form is not None for _, form in opened.items) < len(named)
     assert np.ptp(read_image(wave.with_suffix(".png"))) == 255

@@ -49,12 +49,17 @@ CHAPTERS = (
 
 @dataclass
 class Section:
-    """A chapter with its contents as HTML and data: addresses; ``when`` its page was last written, as git knows it."""
+    """A chapter with its contents as HTML and data: addresses.
+
+    when     its page was last written, as git knows it
+    missing  names of plots that are nowhere
+    """
 
     chapter: Chapter
     when: str
     tables: list[str] = field(default_factory=list)
     plots: list[tuple[str, str]] = field(default_factory=list)
+    missing: list[str] = field(default_factory=list)
 
     @property
     def anchor(self) -> str:
@@ -81,8 +86,12 @@ def section(chapter: Chapter) -> Section:
     found = Section(chapter, written(chapter.page))
     found.tables = [table_html(block_of(DOCS / chapter.page, name)) for name in chapter.blocks]
     for choices in chapter.plots:
-        path = next((ROOT / choice for choice in choices.split("|") if (ROOT / choice).exists()), None)
+        paths = [ROOT / choice for choice in choices.split("|")]
+        path = next((path for path in paths if path.exists()), None)
+        name = paths[-1].stem.removeprefix("benchmark-")
         if path:
             address = "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode()
-            found.plots.append((path.stem.removeprefix("benchmark-"), address))
+            found.plots.append((name, address))
+        else:
+            found.missing.append(name)
     return found

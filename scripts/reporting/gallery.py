@@ -77,7 +77,7 @@ def normal_picture(normal: np.ndarray, surface: np.ndarray) -> tuple[np.ndarray,
 
 def steps_picture(steps: np.ndarray, most: int) -> tuple[np.ndarray, str]:
     """Steps (H, W) from dark to light; ``most`` is the lightest."""
-    colors = matplotlib.colormaps["viridis"](steps / max(most, 1), bytes=True)[..., :3].copy()
+    colors = matplotlib.colormaps["viridis"]((steps - 1) / max(most - 1, 1), bytes=True)[..., :3].copy()
     colors[steps == 0] = MISS
     return colors, f"dark: one step, yellow: {most:,}; grey: none. {int(steps.sum()):,} in all"
 
@@ -131,6 +131,7 @@ def card(folder: Path) -> Card:
         else f"{differing['pixels']:,} pixels differ, {differing['hit_bits'] + differing['image_bits']:,} bits"
     )
     described = f"{size}, {config['rule']} rule, n1 = {config['n1']}, K = {config['steps']}, W = {config['width']}"
+    described = described.replace(" = ", "\u00a0=\u00a0")  # no end of a line there
     golden, rtl = (View(label, data_address(rgb)) for label, rgb in zip(("golden model", "RTL"), pictures, strict=True))
     return Card(name, equal, verdict, described, golden, rtl, views, rows)
 

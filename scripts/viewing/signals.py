@@ -21,6 +21,7 @@ class Signal:
 
     scopes    all scopes around it, as in the file
     name      with indices
+    ranged    declared with a range, as [0:0]
     inside    how many of ``scopes`` are instances of modules or generate blocks; the others are those of its struct
     code      by which its changes are marked
     """
@@ -29,6 +30,7 @@ class Signal:
     name: str
     width: int
     code: str
+    ranged: bool
     inside: int
 
     @property
@@ -85,7 +87,7 @@ def _signal(scopes: tuple[str, ...], declared: VarDecl) -> Signal:
         inside += 1
     index = declared.bit_index  # of an array of bits; a vector has two
     name = declared.reference + (f"[{index}]" if isinstance(index, int) else "")
-    return Signal(scopes, name, declared.size, declared.id_code, inside)
+    return Signal(scopes, name, declared.size, declared.id_code, isinstance(index, tuple), inside)
 
 
 def stage_of(root: str) -> str:

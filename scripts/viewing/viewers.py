@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that open a waveform with its signals in groups: a save file of GTKWave, commands of Surfer, a VCD of reals."""
+"""Files that open a waveform with its signals in groups: GTKWave, Surfer, and a VCD of reals."""
 
+import re
+import shutil
 from datetime import datetime
 from math import log2
 from pathlib import Path
@@ -9,6 +11,7 @@ from typing import TextIO
 from vcd import VCDWriter
 from vcd.gtkw import GTKWFlag, GTKWSave
 
+from .formats import number_of
 from .signals import Group, Signal, changes
 
 CLOCK_PIXELS = 40  # width of a clock where GTKWave opens
@@ -42,14 +45,56 @@ def write_gtkwave(file: TextIO, wave: Path, groups: list[Group], start: int, per
                 save.trace(gtkwave_name(signal), alias=alias, datafmt=form, extraflags=GTKWFlag.fpdecshift)
 
 
-def write_surfer(file: TextIO, wave: Path, groups: list[Group]) -> None:
-    """Commands (surfer -c FILE): a divider before each group. Real numbers are in the file of :func:`write_reals`."""
-    file.write(f"load_file {wave}\n")
+RANGED = re.compile(r"(\$var\s+\S+\s+(\d+)\s+\S+\s+(\S+)\s+)\[(\d+):0\](?=\s+\$end)")
+
+
+def surfer_name(signal: Signal) -> str:
+    """Surfer's reader has elements of an array in a scope of its name; the last index of a single bit is none's."""
+    last = signal.name.rfind("[") if signal.width == 1 and not signal.ranged else len(signal.name)
+    elements = re.sub(r"(?<!^)\[", ".[", signal.name[:last]) + signal.name[last:]
+    return ".".join([*signal.scopes, elements])
+
+
+def surfer_index(place: int) -> str:
+    """How Surfer names the item of a line: hexadecimal digits from a on."""
+    return f"{place:x}".translate(str.maketrans("0123456789abcdef", "abcdefghijklmnop"))
+
+
+def write_surfer(file: TextIO, groups: list[Group]) -> None:
+    """Commands for a waveform of :func:`write_fixed`: a divider before each group, formats of fixed-point numbers.
+
+    A divider's name is one word, or Surfer refuses it. Formats are last: what follows a focused line is added there.
+    """
+    formats, place = [], 0
     for group in groups:
-        file.write(f"divider_add {group.name}\n")
+        file.write(f"divider_add {re.sub(r'[^A-Za-z0-9_]', '_', group.name)}\n")
+        place += 1
         for signal in group.signals:
-            file.write(f"variable_add {signal.path}\n")
-    file.write("zoom_fit\n")
+            file.write(f"variable_add {surfer_name(signal)}\n")
+            if signal.number:
+                form = "Signed" if signal.number.signed else "Unsigned"
+                formats += [f"item_focus {surfer_index(place)}_{signal.name}", f"item_set_format {form} fixed point"]
+            place += 1
+    file.write("\n".join([*formats, "item_unfocus", "zoom_fit", ""]))
+
+
+def write_fixed(file: TextIO, wave: Path) -> None:
+    """The waveform with the point in the ranges of fixed-point numbers, where Surfer looks for it: [1:-30], not [31:0].
+
+    Changes are copied as they are.
+    """
+
+    def shifted(found: re.Match) -> str:
+        number = number_of(found[3], int(found[2]))
+        below = number.fraction if number else 0
+        return f"{found[1]}[{int(found[4]) - below}:{-below}]"
+
+    with wave.open() as source:
+        for line in source:
+            file.write(RANGED.sub(shifted, line))
+            if "$enddefinitions" in line:
+                break
+        shutil.copyfileobj(source, file)
 
 
 def write_reals(file: TextIO, wave: Path, groups: list[Group], until: int) -> int:
