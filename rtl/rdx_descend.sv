@@ -7,8 +7,8 @@
 //
 // Formats    ends_i, ends_o: s2p30 and s1p31; point_o: the start of x, y, z. pick_i: number of the cell; close_i: to its middle.
 // Rounding   half up in each average.    Overflow   cannot happen: an average lies between its inputs.
-// Timing     P = ceil((N1 + 1)/Moves) clocks of so many moves each, the last maybe of fewer: close_i comes P - 1 clocks after ends_i and pick_i,
-//            point_o after P + 1, ends_o after P + 3 clocks. One segment a clock; no reset, no stall.
+// Timing     P = ceil((N1 + 1)/Moves) clocks of so many moves each, the last maybe of fewer: close_i comes P - 1 clocks
+//            after ends_i and pick_i, point_o after P + 1, ends_o after P + 3 clocks. One segment a clock; no reset, no stall.
 // Model      model/raydix/carry.py, and the middle in model/raydix/settle.py
 `default_nettype none
 
@@ -26,7 +26,7 @@ module rdx_descend #(
   import rdx_pkg::*;
 
   localparam int unsigned All = N1 + 1;  // moves, the last one to the middle
-  localparam int unsigned Stages = (All + Moves - 1) / Moves;
+  localparam int unsigned Stages = descend_stages(N1, Moves);
   typedef logic signed [CoordWidth:0] distance_t;
   typedef logic signed [CoordWidth+1:0] move_t;  // and a bit that carries into it
 

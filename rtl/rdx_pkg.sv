@@ -152,6 +152,11 @@ package rdx_pkg;
     return d / follow_stages(d, halve_stages) > 2 ? d / follow_stages(d, halve_stages) : 2;
   endfunction
 
+  // Clocks of rdx_descend in which the ends of the chosen cell are moved, once for each digit and to the middle.
+  function automatic int unsigned descend_stages(int unsigned n1, int unsigned moves);
+    return (n1 + moves) / moves;
+  endfunction
+
   // Latency from the choice to the chosen cell, which is halved again.
   function automatic int unsigned pick_latency(int unsigned n1, int unsigned d, int unsigned halve_stages);
     return n1 * follow_stages(d, halve_stages);

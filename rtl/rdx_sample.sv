@@ -49,7 +49,7 @@ module rdx_sample #(
   localparam int unsigned Phases = phases(J - 1, Lanes);
   localparam int unsigned Evaluation = VecsumLatency + Phases - 1;
   localparam int unsigned Latency = cells_latency(N1, 1, 1, Lanes);
-  localparam int unsigned Moving = N1 / 2 + 1;  // clocks of the ends that are over when b_o is there
+  localparam int unsigned Moving = descend_stages(N1, 2);  // clocks of the ends that are over when b_o is there
 
   // ---- coordinates ----
   coord_t coords[3][J+1], points[3][J-1];

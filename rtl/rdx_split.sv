@@ -44,7 +44,7 @@ module rdx_split #(
   localparam int unsigned Latency = N1 * HalveStages;
   localparam int unsigned Follow = pick_latency(N1, D, HalveStages);
   localparam int unsigned Moves = follow_moves(D, HalveStages);
-  localparam int unsigned Moving = (N1 + Moves) / Moves;  // clocks of the ends that are over when b_o is there
+  localparam int unsigned Moving = descend_stages(N1, Moves);  // clocks of the ends that are over when b_o is there
 
   // ---- control points; averages of values that are less by one are less by one ----
   localparam type value_t = logic signed [W+Below-1:0];

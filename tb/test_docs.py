@@ -215,7 +215,8 @@ def program_of(command: str) -> tuple[str, list[str]] | None:
             return None
         done = subprocess.run(["make", "-n", *words[1:]], cwd=ROOT, capture_output=True, text=True)
         assert done.returncode == 0, f"{command}: {done.stderr}"
-        lines = [line for line in done.stdout.splitlines() if line.startswith(".venv/bin/") or "pytest" in line]
+        whole = done.stdout.replace("\\\n", " ").splitlines()
+        lines = [line for line in whole if line.startswith(".venv/bin/") or "pytest" in line]
         assert len(lines) == 1, f"{command}: {done.stdout}"
         return program_of(lines[0])
     if words[0].endswith(("python", "python3")):
