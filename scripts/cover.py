@@ -4,7 +4,6 @@
 import argparse
 import math
 import os
-import subprocess
 import sys
 import tempfile
 from collections import Counter
@@ -13,10 +12,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from pytests import run_pytest
 from raydix import coverpoints
 from raydix.blocks import read_table, write_table
 from raydix.command import COUNT, status_of
 from raydix.files import sources, top_modules
+from raydix.progress import track
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "coverage.md"
@@ -42,8 +43,8 @@ def run_tests(names, jobs):
         manifest.touch()
         files = sorted({f"tb/test_{coverpoints.owner(name)}.py" for name in names})
         environment = {**os.environ, coverpoints.MANIFEST: str(manifest), "SEED": SEED, "WAVES": ""}
-        command = [sys.executable, "-m", "pytest", "-q", "-n", str(jobs), "--dist", "worksteal", *files]
-        if subprocess.run(["nice", "-n", "10", *command], cwd=ROOT, env=environment).returncode:
+        options = ["-n", str(jobs), "--dist", "worksteal"]
+        if run_pytest([*options, *files], "tests", environment, ["nice", "-n", "10"]):
             return None
         return sorted(set(manifest.read_text().split()))
 
@@ -51,7 +52,7 @@ def run_tests(names, jobs):
 def collect(names, files):
     """Points of each module by its own results: (points, number of results)."""
     points, runs = {}, {}
-    for name in names:
+    for name in track(names, "results of modules"):
         mine = [coverpoints.RESULTS / file for file in files if file.startswith(f"rdx_{coverpoints.owner(name)}-")]
         runs[name] = len(mine)
         points.update({p: n for p, n in coverpoints.merge(mine).items() if p.module == name})

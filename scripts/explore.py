@@ -15,6 +15,7 @@ Writes explore.json, explore.csv and explore.png there, too. Exit status 0; 2: b
 
 import argparse
 import json
+import re
 import signal
 import sys
 from collections.abc import Iterator
@@ -164,6 +165,14 @@ def publish(results: dict[Design, dict], points: list[Point], families: list[str
     plot(points, PICTURE)
 
 
+def scheduler(text: str) -> str:
+    """An address of a scheduler: of a host with a port, or whatever distributed has found within this process."""
+    match = re.fullmatch(r"(tcp|tls|ws|wss|ucx)://[^\s/]+:([0-9]{1,5})|inproc://\S+", text)
+    if not match or match[2] and not 1 <= int(match[2]) <= 65535:
+        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: tcp://HOST:PORT, for example tcp://host:8786")
+    return text
+
+
 def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -172,7 +181,9 @@ def parse(arguments):
     parser.add_argument("--no-pnr", dest="pnr", action="store_false", help="no place and route")
     parser.add_argument("--kept", action="store_true", help="measure nothing: show what was measured so far")
     parser.add_argument("--jobs", type=int, default=2, help="points at a time on this machine (default: 2)")
-    parser.add_argument("--scheduler", metavar="tcp://HOST:PORT", help="of a Dask cluster that measures them")
+    parser.add_argument(
+        "--scheduler", type=scheduler, metavar="tcp://HOST:PORT", help="of a Dask cluster that measures them"
+    )
     parser.add_argument("--out", type=Path, default=BUILD, help="folder (default: build/explore)")
     parser.add_argument("--write", action="store_true", help="renew docs/exploration.md")
     options = parser.parse_args(arguments)

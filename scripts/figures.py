@@ -21,8 +21,9 @@ from raydix.command import status_of
 from raydix.compile import camera_of, clip_box, compile_scene
 from raydix.config import Config
 from raydix.fit import families
-from raydix.image import ImageError, write_files
+from raydix.image import write_files
 from raydix.kernel import zeros
+from raydix.progress import bars
 from raydix.render import render_golden
 from raydix.scene import load_scene
 from raydix.trace_ray import follow
@@ -127,13 +128,17 @@ def main():
     scene = load_scene(ROOT / "scenes" / "torus.toml")
     config = Config(**families(scene))
     figures = {"method-step": draw_step, "method-rectangle": draw_rectangle}
-    try:
-        paths = write_files(
-            {out / f"{name}.png": lambda work, draw=draw: draw(scene, config, work) for name, draw in figures.items()}
-        )
-    except ImageError as error:
-        print(f"figures: {error}", file=sys.stderr)
-        return 2
+    with bars() as shown:
+        task = shown.add_task("figures", total=len(figures))
+
+        def writer(draw):
+            def write(work):
+                draw(scene, config, work)
+                shown.advance(task)
+
+            return write
+
+        paths = write_files({out / f"{name}.png": writer(draw) for name, draw in figures.items()})
     print("\n".join(map(str, paths)))
     return 0
 

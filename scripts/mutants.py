@@ -19,6 +19,7 @@ from mutation import campaign as work  # noqa: E402  (needs tb/ on the path)
 from mutation import schema, sites  # noqa: E402
 from raydix.blocks import read_table, write_table  # noqa: E402
 from raydix.command import COUNT, status_of  # noqa: E402
+from raydix.config import ConfigError  # noqa: E402
 from raydix.progress import bars  # noqa: E402
 
 EQUIVALENT = ROOT / "tb" / "mutants.toml"
@@ -71,14 +72,20 @@ def row(name, everything, outcomes, equal):
     return [str(t) for t in texts]
 
 
+def named(name, everything, numbers):
+    """The mutants of a module with these numbers. Raises ConfigError where one is none."""
+    if missing := sorted(set(numbers) - {m.number for m in everything}):
+        found = ", ".join(map(str, missing))
+        raise ConfigError(f"--mutant: found {found}; allowed of rdx_{name}: 1 to {len(everything)}")
+    return [m for m in everything if m.number in numbers]
+
+
 def module(name, args, progress, known):
     """Mutate one module. Returns its row, the survivors, and listed mutants that a test has killed."""
     tests, everything, runs = work.prepare(name, args.kept)
     wanted = everything if args.all or name in WHOLE else schema.choose(everything, args.count, name)
     if args.mutant:
-        wanted = [m for m in everything if m.number in args.mutant]
-        if missing := set(args.mutant) - {m.number for m in wanted}:
-            raise ValueError(f"rdx_{name} has no mutant {sorted(missing)}; allowed: 1 to {len(everything)}")
+        wanted = named(name, everything, args.mutant)
     task = progress.add_task(name, total=len(wanted))
     results = work.Results(name, everything)
 
@@ -118,7 +125,7 @@ def main():
     count_help = f"mutants of each module, at most (default: 45; of {', '.join(WHOLE)} all)"
     parser.add_argument("--count", type=COUNT, default=45, help=count_help)
     parser.add_argument("--all", action="store_true", help="all mutants that the operators make")
-    parser.add_argument("--mutant", type=int, action="append", help="only this one, of one module")
+    parser.add_argument("--mutant", type=COUNT, action="append", help="only this one, of one module")
     parser.add_argument("--list", action="store_true", help="print the mutants, run nothing")
     parser.add_argument("--kept", action="store_true", help="run nothing, show what earlier runs have found")
     parser.add_argument("--jobs", type=COUNT, default=os.cpu_count(), help="simulations at a time (default: the cores)")
@@ -143,7 +150,8 @@ def main():
         with bars(console) as progress:
             for name in names:
                 if args.list:
-                    for mutant in work.prepare(name)[1]:
+                    everything = work.prepare(name)[1]
+                    for mutant in named(name, everything, args.mutant) if args.mutant else everything:
                         console.print(describe(name, mutant), markup=False, highlight=False, soft_wrap=True)
                     continue
                 try:

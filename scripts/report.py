@@ -22,6 +22,7 @@ import jinja2
 
 from raydix.command import status_of
 from raydix.image import ImageError, text_writer, write_files
+from raydix.progress import track
 from reporting.documents import CHAPTERS, section
 from reporting.gallery import cards
 from reporting.results import ResultsError, read_runs
@@ -69,7 +70,7 @@ def page(render: Path, results: Path) -> str:
         verdict=line,
         cards=scenes,
         runs=runs,
-        sections=[section(chapter) for chapter in CHAPTERS],
+        sections=[section(chapter) for chapter in track(CHAPTERS, "chapters")],
     )
 
 

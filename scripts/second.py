@@ -16,7 +16,6 @@ import io
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from collections import Counter
@@ -26,8 +25,10 @@ import pytest
 from rich.console import Console
 from rich.table import Table
 
+from pytests import run_pytest
 from raydix.blocks import read_table, write_table
 from raydix.command import COUNT, SEED, status_of
+from raydix.progress import working
 
 ROOT = Path(__file__).resolve().parents[1]
 TB = ROOT / "tb"
@@ -81,8 +82,8 @@ def simulate(names, jobs, seed):
             "SEED": "" if seed is None else str(seed),
             "WAVES": "",
         }
-        command = [sys.executable, "-m", "pytest", "-q", "-n", str(jobs), "--dist", "worksteal", *names]
-        status = subprocess.run(command, env={**os.environ, **settings}, cwd=ROOT).returncode
+        options = ["-n", str(jobs), "--dist", "worksteal"]
+        status = run_pytest([*options, *names], "tests", {**os.environ, **settings})
         lines = record.read_text().splitlines() if record.exists() else []
     return [json.loads(line) for line in lines], status == 0
 
@@ -119,7 +120,8 @@ def main(arguments=None):
     if not second.found():
         print(f"second: {second.MISSING}", file=sys.stderr)
         return 2
-    names, left = collect(modules or known), Counter()
+    with working("looking for the tests"):
+        names, left = collect(modules or known), Counter()
     if not options.all:
         names, left = shorter(names)
     if not names:  # pytest would run everything

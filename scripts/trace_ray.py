@@ -7,24 +7,29 @@
     scripts/trace_ray.py SCENE --pixel X,Y --no-rtl
 
 For each surface whose rectangle has the pixel: what each step saw and chose, with t as a number and as digits, and
-whether the step unit of the RTL gave back the same. Writes <scene>-<x>-<y>-surface<i>.png, and the waveform beside it.
+whether the RTL's step unit gave back the same: the processor renders a frame of this one pixel, and skips nothing.
+Options choose it as in raydix render. Writes <scene>-<x>-<y>-surface<i>.png, and the waveform beside it.
 Exit status 0; 1: RTL and golden model differ, the first step and signal that do are named; 2: bad input.
 """
 
 import argparse
 import re
 import sys
+from functools import partial
 from pathlib import Path
 
 from raydix.blocks import show_table
-from raydix.command import image_size, status_of
+from raydix.command import status_of
 from raydix.compile import CompiledFrame, CompiledSurface, compile_scene
-from raydix.config import RULES, Config, ConfigError
-from raydix.fit import families
-from raydix.rtl import RtlError, trace_rtl
-from raydix.scene import SceneError, load_scene
+from raydix.config import Config, ConfigError
+from raydix.image import check_folder, write_files
+from raydix.options import add_scene_options, config_of, scene_of
+from raydix.processor import run_frames
+from raydix.progress import working
+from raydix.rtl import TOP, build
+from raydix.scene import Scene
 from raydix.trace_plot import plot_ray
-from raydix.trace_ray import Step, follow, pixel_of
+from raydix.trace_ray import Step, alone, follow
 from raydix.waves import Output, step_outputs
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -57,7 +62,8 @@ def difference(step: Step, output: Output | None) -> str:
 
 def digits(t: int, config: Config, level: int) -> str:
     """The digits of t that are fixed, one for each step."""
-    return " ".join(str(t >> config.n1 * (config.steps - 1 - k) & config.cells - 1) for k in range(level)) or "–"
+    levels = range(config.steps - config.k_stop, level)
+    return " ".join(str(t >> config.n1 * (config.steps - 1 - k) & config.cells - 1) for k in levels) or "–"
 
 
 def rows_of(steps: list[Step], differences: list[str], surface: CompiledSurface, config: Config) -> list[list[str]]:
@@ -66,7 +72,7 @@ def rows_of(steps: list[Step], differences: list[str], surface: CompiledSurface,
     def cells(mask: int) -> str:
         return " ".join(str(j) for j in range(config.cells) if mask >> j & 1) or "–"
 
-    whole = 2 ** (config.n1 * config.steps)
+    whole = 2**config.digits
     rows = []
     for step, other in zip(steps, differences, strict=True):
         scene_depth = surface.near + (surface.far - surface.near) * step.t / whole
@@ -89,20 +95,18 @@ def rows_of(steps: list[Step], differences: list[str], surface: CompiledSurface,
 
 
 def run(
-    surface: CompiledSurface, compiled: CompiledFrame, config: Config, args, stem: Path
-) -> tuple[list[Step], list[str]]:
-    """Steps of the golden model, and for each where the RTL differs: empty, or a dash without RTL."""
-    steps = follow(surface, config, *args.pixel)
+    scene: Scene, surface: CompiledSurface, compiled: CompiledFrame, config: Config, args, stem: Path
+) -> tuple[list[Step], Path, list[str]]:
+    """Steps of the golden model; the waveform; where the RTL differs from each: empty, or a dash without RTL."""
+    steps, wave = follow(surface, config, *args.pixel), stem.with_name(f"{stem.name}.vcd")
     if not args.rtl:
-        return steps, ["–"] * len(steps)
-    alone = compiled._replace(surfaces=(pixel_of(surface, *args.pixel),))
-    wave = stem.with_suffix(".vcd")
-    trace_rtl(alone, config, wave=wave)
+        return steps, wave, ["–"] * len(steps)
+    run_frames([(scene, alone(compiled, surface, *args.pixel))], config, skips=frozenset(), wave=wave)
     outputs = {output.number: output for output in step_outputs(wave)}
     differences = [difference(step, outputs.get(step.number)) for step in steps]
     if not any(differences) and len(outputs) > len(steps):
         differences[-1] = f"step: RTL took {len(outputs)}"
-    return steps, differences
+    return steps, wave, differences
 
 
 def parse(arguments):
@@ -111,57 +115,54 @@ def parse(arguments):
     parser.add_argument("scene", type=Path, help="scene file (TOML)")
     parser.add_argument("--pixel", type=pixel, required=True, metavar="X,Y", help="column and row, from 0")
     parser.add_argument("--surface", type=int, metavar="I", help="only this surface")
-    parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
-    parser.add_argument("--n1", type=int, default=3, help="digits fixed per step (default: 3)")
-    parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
-    parser.add_argument("--size", type=image_size, default=(None, None))
+    add_scene_options(parser)
+    parser.set_defaults(units=1)  # one is easier to read in a waveform
     parser.add_argument("--no-rtl", dest="rtl", action="store_false", help="the golden model only")
     parser.add_argument("--out", type=Path, default=OUT, metavar="DIR", help="folder (default: build/trace)")
     return parser.parse_args(arguments)
 
 
 def chosen(compiled: CompiledFrame, args) -> list[CompiledSurface]:
-    """The surfaces whose rectangles have the pixel. Raises ValueError where none has."""
+    """The surfaces whose rectangles have the pixel. Raises ConfigError where none has."""
     x, y = args.pixel
     if not (x < compiled.width and y < compiled.height):
-        raise ValueError(f"--pixel: found {x},{y}; allowed: 0,0 to {compiled.width - 1},{compiled.height - 1}")
+        raise ConfigError(f"--pixel: found {x},{y}; allowed: 0,0 to {compiled.width - 1},{compiled.height - 1}")
     inside = [s for s in compiled.surfaces if s.rect[0] <= x <= s.rect[2] and s.rect[1] <= y <= s.rect[3]]
     wanted = [s for s in inside if args.surface in (None, s.index)]
     if not wanted:
         what = "no surface" if args.surface is None else f"not surface {args.surface}"
         others = ", ".join(str(s.index) for s in inside) or "none, choose another pixel"
-        raise ValueError(f"--pixel: found {x},{y}, where {what} can be; surfaces there: {others}")
+        raise ConfigError(f"--pixel: found {x},{y}, where {what} can be; surfaces there: {others}")
     return wanted
 
 
 def main(arguments=None) -> int:
     """Follow, print, draw; returns the exit status."""
     args = parse(arguments)
+    scene = scene_of(args, args.scene)
+    config = config_of(args, scene)
+    compiled = compile_scene(scene, config)
+    surfaces = chosen(compiled, args)
+    check_folder(args.out)
+    if args.rtl:
+        with working("building the RTL with Verilator (about two minutes, nothing if it stands)", "trace_ray"):
+            build(config, "vcd", TOP)
+    x, y = args.pixel
     differ = 0
-    try:
-        scene = load_scene(args.scene, *args.size)
-        steps = args.steps or 24 // max(1, args.n1)
-        config = Config(n1=args.n1, steps=steps, units=1, rules=args.rule, rule=args.rule, **families(scene))
-        compiled = compile_scene(scene, config)
-        args.out.mkdir(parents=True, exist_ok=True)
-        for surface in chosen(compiled, args):
-            x, y = args.pixel
-            stem = args.out / f"{scene.name}-{x}-{y}-surface{surface.index}"
-            steps, differences = run(surface, compiled, config, args, stem)
-            kind = scene.surfaces[surface.index].type
-            name = f"{scene.name}, pixel {x},{y}, surface {surface.index} ({kind}), {args.rule} rule"
-            show_table(name, COLUMNS, rows_of(steps, differences, surface, config), ("control points", "RTL"), 200)
-            plot_ray(steps, config.n1, config.steps, name, stem.with_suffix(".png"))
-            print(
-                f"picture: {stem.with_suffix('.png')}" + (f"; waveform: {stem.with_suffix('.vcd')}" if args.rtl else "")
-            )
-            first = next((k for k, text in enumerate(differences) if args.rtl and text), None)
-            if first is not None:
-                differ = 1
-                print(f"RTL and golden model differ: step {steps[first].number}, {differences[first]}")
-    except (SceneError, ConfigError, RtlError, ValueError, OSError) as error:
-        print(f"trace_ray: {error}", file=sys.stderr)
-        return 2
+    for surface in surfaces:
+        stem = args.out / f"{scene.name}-{x}-{y}-surface{surface.index}"
+        picture = stem.with_name(f"{stem.name}.png")
+        kind = scene.surfaces[surface.index].type
+        name = f"{scene.name}, pixel {x},{y}, surface {surface.index} ({kind}), {args.rule} rule"
+        with working(f"following the ray on surface {surface.index}"):
+            steps, wave, differences = run(scene, surface, compiled, config, args, stem)
+            write_files({picture: partial(plot_ray, steps, config.n1, config.k_stop, name)})
+        show_table(name, COLUMNS, rows_of(steps, differences, surface, config), ("control points", "RTL"), 200)
+        print(f"picture: {picture}" + (f"; waveform: {wave}" if args.rtl else ""))
+        first = next((k for k, text in enumerate(differences) if args.rtl and text), None)
+        if first is not None:
+            differ = 1
+            print(f"RTL and golden model differ: step {steps[first].number}, {differences[first]}")
     return differ
 
 

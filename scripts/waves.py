@@ -19,8 +19,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+from pytests import run_pytest
 from raydix.command import status_of
 from raydix.image import ImageError, write_files
+from raydix.progress import working
 from viewing.picture import draw, first_valid, period_of
 from viewing.signals import groups_of, read_signals
 from viewing.viewers import write_fixed, write_gtkwave, write_reals, write_surfer
@@ -42,7 +44,8 @@ def test_named(text: str) -> str:
         known = ", ".join(sorted(p.stem.removeprefix("test_") for p in (ROOT / "tb").glob("test_*.py")))
         raise WavesError(f"T: found '{text}'; allowed: {known}, or one of them and a part of a test's name: ring[N1=1")
     command = [sys.executable, "-m", "pytest", "--collect-only", "-q", str(path)]
-    lines = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout.splitlines()
+    with working(f"looking for the tests of {module}"):
+        lines = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout.splitlines()
     names = [line for line in lines if "::" in line and "[" in line] or [line for line in lines if "::" in line]
     found = [name for name in names if part.rstrip("]") in name]
     if not found:
@@ -56,12 +59,12 @@ def run(name: str, seed: str | None) -> tuple[int, Path]:
     before = {path: path.stat().st_mtime_ns for path in WAVES.glob("*.vcd")}
     settings = {**os.environ, "WAVES": "vcd", **({"SEED": seed} if seed else {})}
     print(f"waves: {name} with a waveform …", file=sys.stderr, flush=True)
-    done = subprocess.run([sys.executable, "-m", "pytest", "-q", name], cwd=ROOT, env=settings, stdout=sys.stderr)
+    status = run_pytest([name], "test", settings)
     new = [p for p in WAVES.glob("*.vcd") if before.get(p) != p.stat().st_mtime_ns and not p.stem.endswith(WRITTEN)]
     if not new:
         raise WavesError(f"{name}: found no waveform; allowed: a test that simulates a module")
     newest = max(new, key=lambda path: path.stat().st_mtime_ns)
-    return done.returncode, newest.relative_to(Path.cwd()) if newest.is_relative_to(Path.cwd()) else newest
+    return status, newest.relative_to(Path.cwd()) if newest.is_relative_to(Path.cwd()) else newest
 
 
 def show(wave: Path, start: int | None, clocks: int) -> dict[Path, str]:
@@ -123,7 +126,8 @@ def main():
         parser.error(f"--clocks: found {args.clocks}; allowed: 1 or more")
     try:
         status, wave = (0, args.file) if args.file else run(test_named(args.test), args.seed)
-        shown = show(wave, args.start, args.clocks)
+        with working(f"reading and drawing {wave.name}"):
+            shown = show(wave, args.start, args.clocks)
     except (WavesError, ImageError) as error:
         print(f"waves: {error}", file=sys.stderr)
         return 2

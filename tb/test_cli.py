@@ -4,18 +4,23 @@
 import csv
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import OpenImageIO as oiio
 import pytest
 
-from raydix import image
+from raydix import cli, image, render
 from raydix.cli import main
+from raydix.config import Config
+from raydix.fit import families, frame_parameters
 from raydix.image import CHANNELS
+from raydix.scene import load_scene
 
 ROOT = Path(__file__).resolve().parents[1]
 RAYDIX = Path(sys.executable).parent / "raydix"
@@ -109,14 +114,32 @@ def test_compare(rendered, tmp_path, capsys):
     assert main(["compare", str(rendered / "torus.npz"), str(tmp_path / "torus.npz")]) == 1
     assert "torus.npz t: 1 of 1728 values differ, first at (18, 10)" in capsys.readouterr().out
     assert main(["compare", str(rendered), str(tmp_path)]) == 1
-    for bad in ("missing", "empty", "text.npz", "text.txt"):
+    for bad, words in (
+        ("missing", "found no such file or folder; allowed: a file .npz, .exr, .png, or a folder"),
+        ("empty", "found a folder without such a file; allowed: a file .npz"),
+        ("text.txt", "found the ending '.txt'; allowed: a file .npz"),
+        ("text.npz", "not a readable npz file: found no zip archive, or one cut short; allowed: an .npz file as"),
+        ("text.png", "not a readable picture: "),
+    ):
         path = tmp_path / bad
         if bad == "empty":
             path.mkdir()
         elif bad.startswith("text"):
             path.write_text("no data")
         assert main(["compare", str(rendered), str(path)]) == 2
-        assert bad in capsys.readouterr().err
+        said = capsys.readouterr().err
+        assert said.startswith(f"raydix: {path}: {words}") and said.count("\n") == 1, said
+
+
+def test_archive_without_arrays_is_refused(tmp_path, capsys):
+    """A zip archive that has no array, or something else than arrays, is no npz file and equal to none."""
+    for names, words in (([], "found no array in"), (["a.txt", "b"], "found a.txt, b, no array in")):
+        path = tmp_path / "a.npz"
+        with zipfile.ZipFile(path, "w") as archive:
+            for name in names:
+                archive.writestr(name, "text")
+        assert main(["compare", str(path), str(path)]) == 2
+        assert f"a.npz: {words} the archive; allowed: an .npz file as render" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("ending", [".png", ".exr", ".npz"])
@@ -178,7 +201,8 @@ def test_compare_sees_every_difference(rendered, what, tmp_path, capsys):
         (["--steps", "0"], "steps: found 0"),
         (["--width", "60"], "width: found 60; allowed: 16 to 48"),
         (["--units", "9"], "units: found 9; allowed: 1 to 8"),
-        (["--threads", "0"], "threads: found 0; allowed: 1 or more"),
+        (["--threads", "0"], "threads: found 0; allowed: 1 to 256"),
+        (["--threads", "1000000"], "threads: found 1000000; allowed: 1 to 256"),
         (["--size", "5000x36"], "camera.width"),
         (["--size", "0x36"], "camera.width"),
     ],
@@ -200,8 +224,6 @@ def test_mixed_endings_are_refused(rendered, capsys):
 def test_export(tmp_path, rendered):
     """words.hex is what the RTL is fed, and hits.csv what it answers."""
     from raydix.compile import compile_scene, descriptor_array
-    from raydix.config import Config
-    from raydix.scene import load_scene
 
     assert (
         main(["export", str(ROOT / "scenes" / "torus.toml"), *SMALL, "--out", str(tmp_path / "new" / "stimulus")]) == 0
@@ -247,7 +269,7 @@ def test_nothing_in_view(tmp_path, capsys):
 
 def test_rays_given_up_are_told(tmp_path, capsys, monkeypatch):
     """Where a ray reached the largest count of steps a word says that roots may be missing; else none."""
-    from raydix import cli, hits
+    from raydix import hits
 
     scene = tmp_path / "scene.toml"
     scene.write_text(TORUS)
@@ -289,8 +311,6 @@ def test_verify(tmp_path, monkeypatch, capsys):
 
 def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     """One bit of one hit changed on its way from the RTL: exit status 1, a red pixel, the command to follow its ray."""
-    from raydix import render
-
     honest = render.run_frames
 
     def faulty(*args, **keywords):
@@ -306,7 +326,54 @@ def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     assert "sphere: 1 bits differ in the hits" in said
     picture = image.read_image(tmp_path / "sphere-difference.png")
     ((y, x),) = np.argwhere((picture == (255, 0, 0)).all(axis=2)).tolist()
-    assert f'make trace-ray SCENE={sphere} PIXEL={x},{y} ARGS="--size 24x18 --steps 2"' in said
+    line = next(line for line in said.splitlines() if "step by step: " in line)
+    assert line.startswith(f"sphere: the first pixel that differs is {x},{y}; ")
+    words = shlex.split(line.split("step by step: ")[1])
+    assert words[1:3] == [str(ROOT / "scripts" / "trace_ray.py"), sphere]
+    assert words[3:] == ["--pixel", f"{x},{y}", "--surface", "0", "--steps", "2", "--units", "1", "--size", "24x18"]
+
+
+def test_first_ray_to_follow():
+    """That of a hit that differs, of its surface; else of a pixel that differs and has rays; else none."""
+    scene = load_scene(ROOT / "scenes" / "glass.toml", 48, 36)
+    config = Config(units=1, **families(scene), **frame_parameters(scene))
+
+    def verdict():
+        return render.Verdict(render.render_golden(scene, config), render.render_golden(scene, config), 0, 0)
+
+    whole = verdict()
+    assert whole.first_ray() is None and not whole.differing().any()
+    rects = [hits.surface.rect for hits in whole.rtl.hits.surfaces]
+    assert all(x0 > 0 and y0 > 0 for x0, y0, _, _ in rects)
+    whole.rtl.rgb[0, 0, 0] ^= 1  # where no surface can be
+    assert whole.first_ray() is None and whole.differing().sum() == 1
+    x, y = rects[2][0], rects[2][1]
+    whole.rtl.normal[y, x, 1] = -0.0 if whole.rtl.normal[y, x, 1] == 0 else 0
+    assert whole.first_ray() == (x, y, None) and whole.differing().sum() == 2
+    hits = whole.rtl.hits.surfaces[1]
+    rows, columns = np.nonzero(hits.t[..., 0] >= 0)
+    hits.point[rows[40], columns[40], 0, 2] ^= 4
+    hits.enters[rows[7], columns[7], 0] ^= 1
+    assert whole.first_ray() == (columns[7] + rects[1][0], rows[7] + rects[1][1], hits.surface.index)
+    lost = verdict()
+    lost.rtl.hits.surfaces[0].t[:] = -1  # a ray that was skipped has no hit
+    assert lost.first_ray() is None
+
+
+def test_difference_without_a_ray(tmp_path, monkeypatch, capsys):
+    """A background of another colour: the first pixel is named, no ray is offered that cannot be followed."""
+    honest = render.run_frames
+
+    def faulty(*args, **keywords):
+        output = honest(*args, **keywords)
+        output.rgb[0, 1, 2, 0] ^= 1
+        return output
+
+    monkeypatch.setattr(render, "run_frames", faulty)
+    options = ["--size", "24x18", "--units", "1", "--steps", "2", "--out", str(tmp_path)]
+    assert main(["verify", str(ROOT / "scenes" / "sphere.toml"), *options]) == 1
+    said = capsys.readouterr().out
+    assert "the first pixel that differs is 2,1, where no surface can be" in said and "trace_ray" not in said
 
 
 def test_malformed_options(tmp_path):
@@ -367,11 +434,17 @@ def test_wave(name, tmp_path, capsys):
         assert name.endswith("fst") or "u_ring" in wave.read_text()
 
 
-def test_unwritable_output(tmp_path, capsys):
-    """An output folder that is a file is one clear line."""
-    (tmp_path / "file").write_text("")
-    assert main(["render", str(ROOT / "scenes" / "torus.toml"), *SMALL, "--out", str(tmp_path / "file")]) == 2
-    assert str(tmp_path / "file") in capsys.readouterr().err
+@pytest.mark.parametrize("command", ["render", "verify", "export"])
+def test_unwritable_output(command, tmp_path, monkeypatch, capsys):
+    """An output folder that is a file is one clear line that names it, before anything is rendered or built."""
+    scene = tmp_path / "s.toml"
+    scene.write_text(TORUS)
+    monkeypatch.setattr(cli, "_build", None)
+    monkeypatch.setattr(cli, "_progress", None)
+    for out in (scene, scene / "below"):
+        assert main([command, str(tmp_path / "s.toml"), *SMALL, "--out", str(out)]) == 2
+        wanted = f"raydix: {scene}: found a file; allowed: a folder, or a name that is not taken\n"
+        assert capsys.readouterr().err == wanted
 
 
 def no_space(*_):

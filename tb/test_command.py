@@ -94,6 +94,11 @@ BAD = [
     ("accuracy.py", SPHERE, "--json", "scenes"),
     ("second.py", "register", "--seed", "abc"),
     ("benchmark.py", "--repeats", 0),
+    ("mutants.py", "select", "--list", "--mutant", 99999),
+    ("mutants.py", "select", "--list", "--mutant", 0),
+    ("explore.py", "--scheduler", "foo"),
+    ("explore.py", "--scheduler", "tcp://host:99999"),
+    ("trace_ray.py", SPHERE, "--pixel", "9,9", "--no-rtl", "--steps", 0),
 ]
 
 

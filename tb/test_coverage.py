@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Coverage: a small module's counts are made, read and merged as they are meant; a gap is reported unless waived."""
 
-import importlib.util
 import os
 import re
+import sys
 
 import cocotb
 import pytest
@@ -13,6 +13,7 @@ import bench
 from raydix import coverpoints
 from raydix.coverpoints import Point, Row
 from raydix.files import ROOT, sources, written
+from scripting import scripts
 
 MODULE = """module rdx_small (
     input wire logic clk_i, input wire logic rst_ni, input wire logic [3:0] count_i, output logic [3:0] sum_o
@@ -71,10 +72,8 @@ async def high(dut):
 
 def script():
     """The command's module."""
-    spec = importlib.util.spec_from_file_location("cover", ROOT / "scripts" / "cover.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    with scripts("cover"):
+        return sys.modules["cover"]
 
 
 @pytest.fixture(scope="module")

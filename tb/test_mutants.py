@@ -175,6 +175,7 @@ def test_errors(monkeypatch, capsys):
     for arguments, text in (
         (["torus"], "found torus; allowed: advance algebraic"),
         (["--mutant", "1"], "exactly one module"),
+        (["select", "--mutant", "-1"], "found '-1'; allowed: whole numbers"),
     ):
         monkeypatch.setattr(sys, "argv", ["mutants.py", *arguments])
         with pytest.raises(SystemExit) as ended:

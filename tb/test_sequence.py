@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sequences: every frame is its own picture; an interruption loses nothing that is finished."""
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from raydix import sequence
+from raydix import cli, sequence
 from raydix.cli import main
 from raydix.image import read_image
 
@@ -111,6 +112,42 @@ def test_what_is_rendered_again(scene, tmp_path, rendered, change, again):
     asked.clear()
     assert main([*command, "--resume"]) == 0
     assert len(asked) == again
+
+
+def test_another_renderer(scene, tmp_path, rendered, monkeypatch):
+    """Pictures of another model, or of the RTL, are made again: the digest has sources and back end."""
+    _, asked = rendered
+    command = ["render", str(scene), *OPTIONS, "--frames", "--out", str(tmp_path / "out")]
+    assert main(command) == 0
+    asked.clear()
+    names = {sequence.version(backend) for backend in ("golden", "rtl")}
+    model = tmp_path / "model"
+    shutil.copytree(Path(sequence.__file__).parent, model)
+    with (model / "halve.py").open("a") as file:
+        file.write("# another\n")
+    monkeypatch.setattr(sequence, "__file__", str(model / "sequence.py"))
+    names |= {sequence.version("golden")}
+    assert main([*command, "--resume"]) == 0
+    assert len(asked) == FRAMES
+    rtl = tmp_path / "rdx_other.sv"
+    real = sequence.top_sources
+    monkeypatch.setattr(sequence, "top_sources", lambda: [*real(), rtl])
+    for text in ("one", "two"):
+        rtl.write_text(text)
+        names |= {sequence.version("rtl")}
+    assert len(names) == 5
+    monkeypatch.setattr(sequence, "version", lambda backend: backend)
+    for backend, again in (("golden", FRAMES), ("rtl", FRAMES), ("rtl", 0)):
+        made = []
+
+        def frames(scene, config, backend, numbers, *_, made=made):
+            made += numbers
+            return ((number, np.zeros((18, 24, 3), np.uint8)) for number in numbers)
+
+        monkeypatch.setattr(sequence, "render_sequence", frames)
+        monkeypatch.setattr(cli, "_build", lambda config: None)
+        assert main([*command, "--resume", "--backend", backend]) == 0
+        assert len(made) == again
 
 
 def test_rtl_is_the_same(scene, tmp_path, monkeypatch):

@@ -2,25 +2,31 @@
 """One ray followed: its steps end where the golden model's do, the RTL's are the same, a broken design is localised."""
 
 import os
+import shlex
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from raydix import cli
+from raydix.command import status_of
 from raydix.compile import compile_scene
 from raydix.config import Config
 from raydix.fit import families
 from raydix.golden import trace_golden
+from raydix.options import config_of, scene_of
 from raydix.scene import load_scene
-from raydix.trace_ray import follow, pixel_of
+from raydix.trace_ray import alone, follow, pixel_of
 from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "scenes"
 SIZE = 64, 48
+FILE = "found a file; allowed: a folder, or a name that is not taken"
 
 
 @pytest.fixture(scope="module")
@@ -74,8 +80,7 @@ def test_one_pixel_is_the_same_ray(name):
     hits = frame.surfaces[0]
     x0, y0, x1, y1 = hits.surface.rect
     row, column = (int(v) for v in np.argwhere(hits.t[..., 0] >= 0)[50])
-    alone = compiled._replace(surfaces=(pixel_of(hits.surface, x0 + column, y0 + row),))
-    one = trace_golden(alone, config).surfaces[0]
+    one = trace_golden(alone(compiled, hits.surface, x0 + column, y0 + row), config).surfaces[0]
     for field in ("t", "depth", "point", "steps"):
         assert np.array_equal(getattr(one, field)[0, 0], getattr(hits, field)[row, column]), field
     with pytest.raises(ValueError, match=f"allowed: {x0},{y0} to {x1},{y1}"):
@@ -102,27 +107,79 @@ def test_rtl_takes_the_same_steps(script, tmp_path, capsys, name, pixel):
     assert "same" in said and "differ" not in said
 
 
-@pytest.mark.long
-def test_localises_a_broken_design(tmp_path):
-    """An average that rounds down in place of up: the command names the first step and control point that differ."""
+@pytest.fixture
+def broken(tmp_path):
+    """Breaks a copy of the design and gives its folder: ``broken(file, old, new)``."""
+    root = tmp_path / "broken"
     for part in ("model", "rtl", "scenes", "scripts", "tb/frame"):
-        shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(ROOT / part, root / part, ignore=shutil.ignore_patterns("__pycache__"))
     for path in (ROOT / "tb").glob("*.vlt"):
-        shutil.copy(path, tmp_path / "tb")
-    halve = tmp_path / "rtl" / "rdx_halve.sv"
-    text = halve.read_text()
-    up = "+ (W + 1)'(1)) >>> 1"
-    assert up in text, "the average has another form: mend this test"
-    halve.write_text(text.replace(up, ") >>> 1"))
-    run = subprocess.run(
-        [sys.executable, "scripts/trace_ray.py", "scenes/torus.toml", "--size", "64x48", "--pixel", "38,18"],
-        cwd=tmp_path,
-        env=os.environ | {"PYTHONPATH": str(tmp_path / "model")},
-        capture_output=True,
-        text=True,
-    )
-    assert run.returncode == 1, run.stdout + run.stderr
-    assert "RTL and golden model differ: step 1, b[" in run.stdout
+        shutil.copy(path, root / "tb")
+
+    def at(name, old, new):
+        text = (root / "rtl" / name).read_text()
+        assert text.count(old) == 1, f"{name} has another form: mend this test"
+        (root / "rtl" / name).write_text(text.replace(old, new))
+        return root
+
+    return at
+
+
+def run(command, root):
+    """A command in a copy of the design; one that is a text by the shell."""
+    environment = os.environ | {"PYTHONPATH": str(root / "model")}
+    shell = isinstance(command, str)
+    return subprocess.run(command, shell=shell, cwd=root, env=environment, capture_output=True, text=True)
+
+
+@pytest.mark.long
+def test_localises_a_broken_design(broken):
+    """An average that rounds down in place of up: the command names the first step and control point that differ."""
+    root = broken("rdx_halve.sv", "+ (W + 1)'(1)) >>> 1", ") >>> 1")
+    command = [sys.executable, "scripts/trace_ray.py", "scenes/torus.toml", "--size", "64x48", "--pixel", "38,18"]
+    done = run(command, root)
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "RTL and golden model differ: step 1, b[" in done.stdout
+
+
+@pytest.mark.long
+def test_replays_what_verify_has_found(broken):
+    """The second step unit of a narrow ring is wrong, where there is one: the command that verify prints finds that."""
+    wrong = "segment_t'((u == 1 && W == 30) ? segment[u] ^ (segment_t'(1) << 3) : segment[u])"
+    root = broken("rdx_ring.sv", ".segment_i(segment[u])", f".segment_i({wrong})")
+    scene = root / "scenes" / "the sphere's.toml"
+    shutil.copy(root / "scenes" / "sphere.toml", scene)
+    options = ["--size", "24x18", "--width", "30", "--units", "2", "--rule", "paper", "--n1", "2", "--steps", "6"]
+    command = [sys.executable, "-m", "raydix.cli", "verify", scene, *options, "--k-stop", "4", "--out", root / "out"]
+    done = run(command, root)
+    assert done.returncode == 1, done.stdout + done.stderr
+    (line,) = [line for line in done.stdout.splitlines() if "step by step: " in line]
+    printed = line.split("step by step: ")[1]
+    assert "--k-stop 4" in printed
+    for left_out, status in (("--none", 1), ("--width 30", 0)):
+        done = run(printed.replace(left_out, ""), root)
+        assert done.returncode == status, done.stdout + done.stderr
+        assert ("RTL and golden model differ: step 2, " in done.stdout) == bool(status)
+
+
+@pytest.mark.parametrize(
+    "name, options",
+    [
+        ("torus", ""),
+        ("torus", "--size 64x48 --n1 2 --steps 10 --k-stop 7 --width 30 --units 5 --rings 3 --rule paper --beat 4"),
+        ("spiral", "--n1 2 --lanes 2 --vector-units 3 --vector-rings 2 --threads 1"),
+    ],
+)
+def test_verify_names_the_same_design(script, name, options):
+    """The command that verify prints is read as the same scene, size, configuration, pixel and surface."""
+    path = SCENES / f"{name}.toml"
+    args = cli._parser().parse_args(["verify", str(path), *options.split()])
+    scene = scene_of(args, path)
+    config = cli._config(args, scene)
+    said = cli._replay(SimpleNamespace(first_ray=lambda: (31, 17, 2)), config, scene, args)
+    again = script.parse(shlex.split(said.split("step by step: ")[1])[2:])
+    assert (again.scene, again.pixel, again.surface, again.size) == (path, (31, 17), 2, args.size)
+    assert config_of(again, scene_of(again, path)) == config
 
 
 @pytest.mark.parametrize(
@@ -132,14 +189,42 @@ def test_localises_a_broken_design(tmp_path):
         ("spiral", ["--pixel", "0,0"], "another pixel"),
         ("torus", ["--pixel", "38,18", "--surface", "3"], "surfaces there: 0"),
         ("torus", ["--pixel", "38,18", "--n1", "5"], "n1: found 5; allowed: 1 to 4"),
+        ("torus", ["--pixel", "38,18", "--steps", "0"], "steps: found 0; allowed: 1 to 10"),
+        ("torus", ["--pixel", "38,18", "--k-stop", "9"], "k_stop: found 9; allowed: 1 to 8"),
     ],
 )
 def test_refuses(script, tmp_path, capsys, name, arguments, words):
-    """A pixel or a parameter that cannot be: status 2, what was found and what is allowed, no traceback."""
-    out = ["--size", "64x48", "--no-rtl", "--out", str(tmp_path)]
-    assert script.main([str(SCENES / f"{name}.toml"), *arguments, *out]) == 2
+    """A pixel or a parameter that cannot be: status 2, what was found and what is allowed; nothing is written."""
+    out = tmp_path / "out"
+    command = [str(SCENES / f"{name}.toml"), *arguments, "--size", "64x48", "--no-rtl", "--out", str(out)]
+    assert status_of(lambda: script.main(command), "trace_ray") == 2
     said = capsys.readouterr().err
-    assert words in said and "Traceback" not in said
+    assert said.startswith("trace_ray: ") and words in said and said.count("\n") == 1 and not out.exists()
+
+
+def test_folder(script, tmp_path, capsys):
+    """The folder is made; a file in its place is refused."""
+    command = [str(SCENES / "torus.toml"), "--size", "64x48", "--pixel", "38,18", "--no-rtl", "--out"]
+    assert script.main([*command, str(tmp_path / "new" / "folder")]) == 0
+    assert [p.name for p in (tmp_path / "new" / "folder").iterdir()] == ["torus-38-18-surface0.png"]
+    (tmp_path / "file").write_text("")
+    assert status_of(lambda: script.main([*command, str(tmp_path / "file" / "folder")]), "trace_ray") == 2
+    assert capsys.readouterr().err == f"trace_ray: {tmp_path}/file: {FILE}\n"
+
+
+def test_picture_is_whole_or_not_there(script, tmp_path, monkeypatch, capsys):
+    """Interrupted while it is drawn, the picture that was there stays, and nothing is beside it."""
+    picture = tmp_path / "torus-38-18-surface0.png"
+    picture.write_text("old")
+
+    def half(*arguments):
+        arguments[-1].write_text("half")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["trace_ray"], "plot_ray", half)
+    command = [str(SCENES / "torus.toml"), "--size", "64x48", "--pixel", "38,18", "--no-rtl", "--out", str(tmp_path)]
+    assert status_of(lambda: script.main(command), "trace_ray") == 130
+    assert picture.read_text() == "old" and list(tmp_path.iterdir()) == [picture]
 
 
 def test_no_pixel(script, capsys):

@@ -4,6 +4,7 @@
 import argparse
 import json
 import os
+import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,41 +14,28 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from .command import image_size, status_of
-from .config import RULES, Config, ConfigError
-from .fit import families, frame_parameters
+from .command import status_of
+from .config import Config, ConfigError
+from .files import ROOT
 from .formats import STEPS_MAX
 from .hits import FrameHits
-from .image import frame_writers, write_files
-from .progress import bars
+from .image import check_folder, frame_writers, write_files
+from .options import add_scene_options, config_of, given, scene_of
+from .progress import bars, working
 from .rtl import TOP, build, top_parameters
-from .scene import Scene, load_scene
+from .scene import Scene
 
 if TYPE_CHECKING:
     from .render import Verdict
 
-REFERENCE_DIGITS = 24
+
+THREADS_MAX = 256  # more than a picture has pieces for
 
 
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)")
-    parser.add_argument("--n1", type=int, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)")
-    parser.add_argument("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)")
-    parser.add_argument("--k-stop", type=int, metavar="K", help="steps to a hit in this frame (default: all)")
-    parser.add_argument("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)")
-    parser.add_argument("--units", type=int, metavar="U", help="step units of an RTL ring (default: 8, at most K)")
-    parser.add_argument("--rings", type=int, default=1, metavar="N", help="rings side by side (default: 1)")
-    parser.add_argument(
-        "--halve-stages", type=int, metavar="N", help="clocks of a halving (default: two rows of averages a clock)"
-    )
-    parser.add_argument("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)")
-    parser.add_argument(
-        "--vector-units", type=int, default=1, metavar="U", help="step units in a vector-sum ring (default: 1)"
-    )
-    parser.add_argument("--vector-rings", type=int, default=1, metavar="N", help="vector-sum rings (default: 1)")
-    parser.add_argument("--beat", type=int, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)")
-    parser.add_argument("--size", type=image_size, metavar="WxH", help="image size instead of the scene's")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N", help="threads of the golden model")
+    add_scene_options(parser)
+    threads = min(os.cpu_count() or 1, THREADS_MAX)
+    parser.add_argument("--threads", type=int, default=threads, metavar="N", help="threads of the golden model")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -82,29 +70,10 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _config(args: argparse.Namespace, scene: Scene) -> Config:
-    """The configuration asked for; only the rule that is used and the families that the scene needs are built."""
-    if not 1 <= args.n1 <= 4:
-        raise ConfigError(f"n1: found {args.n1}; allowed: 1 to 4")
-    if args.threads < 1:
-        raise ConfigError(f"threads: found {args.threads}; allowed: 1 or more")
-    steps = REFERENCE_DIGITS // args.n1 if args.steps is None else args.steps
-    units = max(1, min(8, steps)) if args.units is None else args.units
-    return Config(
-        n1=args.n1,
-        steps=steps,
-        k_stop=args.k_stop,
-        width=args.width,
-        units=units,
-        rules=args.rule,
-        rule=args.rule,
-        lanes=args.lanes,
-        vector_units=args.vector_units,
-        rings=args.rings,
-        halve_stages=args.halve_stages,
-        vector_rings=args.vector_rings,
-        **families(scene),
-        **frame_parameters(scene, args.beat),
-    )
+    """The configuration asked for."""
+    if not 1 <= args.threads <= THREADS_MAX:
+        raise ConfigError(f"threads: found {args.threads}; allowed: 1 to {THREADS_MAX}")
+    return config_of(args, scene)
 
 
 def _units(rings: int, units: int) -> str:
@@ -135,17 +104,10 @@ def _progress() -> Iterator[Callable[[str], Callable[[int, int], None]]]:
         yield bar
 
 
-def _load(args: argparse.Namespace, path: Path) -> Scene:
-    return load_scene(path, *(args.size or (None, None)))
-
-
 def _build(config: Config, trace: str | None = None) -> None:
     """Build the simulator, with a word about it: it takes a while."""
-    console = Console(stderr=True)
-    text = f"building the RTL with Verilator ({_described(config)}; about a minute, nothing if it stands) …"
-    if not console.is_terminal:
-        print(f"raydix: {text}", file=sys.stderr, flush=True)
-    with console.status(text):
+    described = f"{_described(config)}; about a minute, nothing if it stands"
+    with working(f"building the RTL with Verilator ({described})", "raydix"):
         build(config, trace, TOP)
 
 
@@ -162,8 +124,9 @@ def _say_what_is_seen(scene: Scene, hits: FrameHits) -> None:
 def _render(args: argparse.Namespace) -> int:
     from .render import render_golden, render_rtl
 
-    scene = _load(args, args.scene)
+    scene = scene_of(args, args.scene)
     config = _config(args, scene)
+    check_folder(args.out)
     if args.frames:
         return _render_frames(args, scene, config)
     if args.resume:
@@ -191,7 +154,7 @@ def _render_frames(args: argparse.Namespace, scene: Scene, config: Config) -> in
         raise ConfigError(f"frames: found no sequence in {scene.path}; allowed: a scene with [turntable] or [[frame]]")
     if args.wave:
         raise ConfigError("wave: found with --frames; allowed: with a single frame")
-    kept = Kept(scene, config, args.out)
+    kept = Kept(scene, config, args.backend, args.out)
     numbers = kept.resume() if args.resume else list(range(len(kept.paths)))
     if len(numbers) < len(kept.paths):
         print(f"raydix: {len(kept.paths) - len(numbers)} of {len(kept.paths)} frames are there", file=sys.stderr)
@@ -210,7 +173,7 @@ def _render_frames(args: argparse.Namespace, scene: Scene, config: Config) -> in
 
 def _configure(args: argparse.Namespace) -> int:
     """Parameters of rdx_top, and what each of them is for."""
-    scene = _load(args, args.scene)
+    scene = scene_of(args, args.scene)
     config = _config(args, scene)
     values = top_parameters(config)
     if args.json:
@@ -276,11 +239,13 @@ def _verify(args: argparse.Namespace) -> int:
         raise ConfigError(f"out: found a folder for {len(args.scene)} scenes; allowed: with one scene")
     work = []
     for path in args.scene:
-        scene = _load(args, path)
+        scene = scene_of(args, path)
         work.append((scene, _config(args, scene), args.out or Path("build", "render", scene.name)))
     names = [scene.name for scene, _, _ in work]
     if len(set(names)) < len(names):
         raise ConfigError(f"scene: found the names {', '.join(names)}; allowed: files with different names")
+    for _, _, out in work:
+        check_folder(out)
     verdicts: dict[str, Verdict] = {}
     for scene, config, out in work:
         _build(config)
@@ -294,37 +259,42 @@ def _verify(args: argparse.Namespace) -> int:
     shown = list(verdicts.items())
     for i in range(0, len(shown), 2):  # two scenes fit a terminal of 80 columns
         Console().print(_table(dict(shown[i : i + 2])))
-    for verdict, (scene, _, out) in zip(verdicts.values(), work, strict=True):
+    for verdict, (scene, config, out) in zip(verdicts.values(), work, strict=True):
         print(
             f"{scene.name}: {verdict.hit_bits} bits differ in the hits, {verdict.image_bits} in the images; "
             f"pictures: {out}/golden, {out}/rtl, {out}/{scene.name}-difference.png"
         )
-        if verdict.differing().any():
-            print(f"{scene.name}: {_replay(verdict, scene, args)}")
+        if verdict.hit_bits or verdict.image_bits:
+            print(f"{scene.name}: {_replay(verdict, config, scene, args)}")
     return int(any(v.hit_bits or v.image_bits for v in verdicts.values()))
 
 
-def _replay(verdict: "Verdict", scene: Scene, args: argparse.Namespace) -> str:
-    """The first pixel that differs, with the command that follows its ray through both."""
-    y, x = divmod(int(verdict.differing().argmax()), scene.camera.width)
-    options = [f"--size {args.size[0]}x{args.size[1]}"] if args.size else []
-    options += (
-        [f"--steps {args.steps}"] * bool(args.steps)
-        + [f"--n1 {args.n1}"] * (args.n1 != 3)
-        + [f"--rule {args.rule}"] * (args.rule != "certified")
-    )
-    more = f' ARGS="{" ".join(options)}"' if options else ""
-    return (
-        f"the first pixel that differs is {x},{y}; step by step: make trace-ray SCENE={scene.path} PIXEL={x},{y}{more}"
-    )
+def _replay(verdict: "Verdict", config: Config, scene: Scene, args: argparse.Namespace) -> str:
+    """The first ray that differs, with the command that follows it through both, in the same design."""
+    ray = verdict.first_ray()
+    if ray is None:
+        y, x = divmod(int(verdict.differing().argmax()), scene.camera.width)
+        return f"the first pixel that differs is {x},{y}, where no surface can be: the mistake is behind the rings"
+    x, y, surface = ray
+    options = argparse.Namespace(**vars(args) | {"units": config.units})  # those of trace_ray are 1 if not given
+    words = [_from_here(Path(sys.executable)), _from_here(ROOT / "scripts" / "trace_ray.py"), str(scene.path)]
+    words += ["--pixel", f"{x},{y}", *([] if surface is None else ["--surface", str(surface)]), *given(options)]
+    return f"the first pixel that differs is {x},{y}; step by step: {shlex.join(words)}"
+
+
+def _from_here(path: Path) -> str:
+    """A path as one would type it."""
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def _export(args: argparse.Namespace) -> int:
     from .export import export
 
-    scene = _load(args, args.scene)
+    scene = scene_of(args, args.scene)
+    config = _config(args, scene)
+    check_folder(args.out)
     with _progress() as bar:
-        paths = export(scene, _config(args, scene), args.out, bar("golden model, rays"))
+        paths = export(scene, config, args.out, bar("golden model, rays"))
     print("\n".join(map(str, paths)))
     return 0
 

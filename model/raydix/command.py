@@ -14,6 +14,7 @@ from pathlib import Path
 
 from .config import ConfigError
 from .image import ImageError
+from .progress import tell_compilation
 from .rtl import RtlError
 from .scene import SceneError
 
@@ -89,6 +90,8 @@ def status_of(main: Callable[[], int], name: str | None = None, more: str = "") 
     more   said, too, where it is interrupted
     """
     name = name or Path(sys.argv[0]).stem
+    if sys.stderr.isatty() and "numba" in sys.modules:
+        tell_compilation()
     try:
         return main()
     except BrokenPipeError:

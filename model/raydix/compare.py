@@ -2,36 +2,43 @@
 """Compares two outputs of ``raydix render``, value by value."""
 
 from pathlib import Path
+from zipfile import is_zipfile
 
 import numpy as np
 
 from .image import ImageError, read_image
 
 ENDINGS = (".npz", ".exr", ".png")
+ALLOWED = f"a file {', '.join(ENDINGS)}, or a folder with one of each at most"
 
 
 def _load(path: Path) -> dict[str, np.ndarray]:
     """The arrays of a file: those of an npz, or the pixels of a picture."""
     if path.suffix in (".png", ".exr"):
         return {"pixels": read_image(path)}
+    allowed = "allowed: an .npz file as render writes it"
+    if not is_zipfile(path):
+        raise ImageError(f"{path}: not a readable npz file: found no zip archive, or one cut short; {allowed}")
     try:
-        data = np.load(path, allow_pickle=False)
-        if not isinstance(data, np.lib.npyio.NpzFile):
-            raise ValueError("a single array")
-        with data:
-            return {name: data[name] for name in data.files}
+        with np.load(path, allow_pickle=False) as data:
+            found = {name: data[name] for name in data.files}
     except Exception as error:  # whatever a damaged file makes zipfile, zlib or numpy say
-        raise ImageError(f"{path}: not a readable npz file: {type(error).__name__}: {error}") from None
+        raise ImageError(f"{path}: not a readable npz file: {type(error).__name__}: {error}; {allowed}") from None
+    other = [name for name, value in found.items() if not isinstance(value, np.ndarray)]
+    if other or not found:
+        what = f"{', '.join(other)}, no array" if other else "no array"
+        raise ImageError(f"{path}: found {what} in the archive; {allowed}")
+    return found
 
 
 def _files(path: Path) -> dict[str, Path]:
     """By ending: a file itself, or the one file of each kind in a folder."""
     if path.is_file():
         if path.suffix not in ENDINGS:
-            raise ImageError(f"{path}: found the ending '{path.suffix}'; allowed: {', '.join(ENDINGS)} or a folder")
+            raise ImageError(f"{path}: found the ending '{path.suffix}'; allowed: {ALLOWED}")
         return {path.suffix: path}
     if not path.is_dir():
-        raise ImageError(f"{path}: no such file or folder")
+        raise ImageError(f"{path}: found no such file or folder; allowed: {ALLOWED}")
     found = {}
     for ending in ENDINGS:
         files = sorted(path.glob(f"*{ending}"))
@@ -40,7 +47,7 @@ def _files(path: Path) -> dict[str, Path]:
         if files:
             found[ending] = files[0]
     if not found:
-        raise ImageError(f"{path}: no file {', '.join('*' + e for e in ENDINGS)} in it")
+        raise ImageError(f"{path}: found a folder without such a file; allowed: {ALLOWED}")
     return found
 
 

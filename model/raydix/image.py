@@ -33,6 +33,15 @@ def _write_image(path: Path, pixels: np.ndarray, names: tuple[str, ...], kind: s
         raise OSError(out.geterror())
 
 
+def check_folder(folder: Path) -> None:
+    """Raises :class:`ImageError` where ``folder`` cannot be made: a file has its name, or that of a parent."""
+    for path in (folder, *folder.parents):
+        if path.exists():
+            if not path.is_dir():
+                raise ImageError(f"{path}: found a file; allowed: a folder, or a name that is not taken")
+            return
+
+
 def write_files(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
     """Write several files, all or none: each under a temporary name beside its own, then all are renamed.
 
@@ -45,6 +54,7 @@ def write_files(writers: dict[Path, Callable[[Path], object]]) -> list[Path]:
         for path, write in writers.items():
             if path.is_dir():
                 raise OSError("there is a folder of this name")
+            check_folder(path.parent)
             path.parent.mkdir(parents=True, exist_ok=True)
             work[path] = part_of(path)
             write(work[path])

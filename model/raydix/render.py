@@ -10,7 +10,7 @@ import numpy as np
 from .compile import compile_scene
 from .config import Config
 from .golden import trace_golden
-from .hits import differing_bits_of
+from .hits import FrameHits, differing_bits_of
 from .image import frame_writers, png_writer, text_writer, write_files
 from .processor import run_frames
 from .scene import Scene
@@ -59,15 +59,43 @@ class Verdict:
 
     def differing(self) -> np.ndarray:
         """Where the finished frames differ: bool (H, W)."""
-        a, b = self.golden, self.rtl
-        return (a.rgb != b.rgb).any(axis=2) | (a.t != b.t) | (a.surface != b.surface) | (a.depth != b.depth)
+        return _image_bits(self.golden, self.rtl) > 0
+
+    def first_ray(self) -> tuple[int, int, int | None] | None:
+        """Column, row and surface of the first ray whose hits differ.
+
+        Where none's do, of the first pixel that differs and has rays; the surface is None: it may be any there. None,
+        where no pixel that differs has a ray.
+        """
+        if rays := differing_rays(self.rtl.hits, self.golden.hits):
+            y, x, index = rays[0]
+            return x, y, index
+        looked_at = np.zeros(self.golden.t.shape, bool)
+        for hits in self.golden.hits.surfaces:
+            x0, y0, x1, y1 = hits.surface.rect
+            looked_at[y0 : y1 + 1, x0 : x1 + 1] = True
+        pixels = np.argwhere(self.differing() & looked_at).tolist()
+        return (pixels[0][1], pixels[0][0], None) if pixels else None
 
 
-def _image_bits(a: Frame, b: Frame) -> int:
-    total = 0
+def differing_rays(part: FrameHits, whole: FrameHits) -> list[tuple[int, int, int]]:
+    """Row, column and surface of each ray of ``part`` that has a hit which is not that of ``whole``, in this order."""
+    rays = []
+    for one, other in zip(part.surfaces, whole.surfaces, strict=True):
+        differs = (one.t != other.t) | (one.depth != other.depth) | (one.enters != other.enters)
+        differs |= (one.point != other.point).any(axis=3)
+        x0, y0, *_ = one.surface.rect
+        places = np.argwhere((differs & (one.t >= 0)).any(axis=2)) + (y0, x0)
+        rays += [(y, x, one.surface.index) for y, x in places.tolist()]
+    return sorted(rays)
+
+
+def _image_bits(a: Frame, b: Frame) -> np.ndarray:
+    """Bits that differ in each pixel: int64 (H, W)."""
+    total = np.zeros(a.t.shape, np.int64)
     for name in ("depth", "t", "surface", "normal", "rgb"):
         one, other = (np.ascontiguousarray(getattr(f, name)).view(np.uint8) for f in (a, b))
-        total += int(np.bitwise_count(one ^ other).sum())
+        total += np.bitwise_count(one ^ other).reshape(*total.shape, -1).sum(axis=2, dtype=np.int64)
     return total
 
 
@@ -81,7 +109,7 @@ def verify(scene: Scene, config: Config, threads: int = 1, progress=None) -> Ver
     golden = compose(scene, trace_golden(compiled, config, threads, of_golden), config, config.layers)
     output = run_frames([(scene, compiled)], config, progress=of_rtl)
     rtl = _frame_of(scene, compiled, config, output)
-    return Verdict(golden, rtl, differing_bits_of(rtl.hits, golden.hits), _image_bits(golden, rtl))
+    return Verdict(golden, rtl, differing_bits_of(rtl.hits, golden.hits), int(_image_bits(golden, rtl).sum()))
 
 
 def steps_of(frame: Frame) -> np.ndarray:

@@ -5,6 +5,7 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +13,11 @@ from PIL import Image
 
 from .compile import compile_scene, descriptor_array
 from .config import Config
+from .files import RTL, top_sources
 from .image import ImageError, png_writer, read_image, text_writer, write_files
 from .processor import run_frames
 from .render import render_golden
+from .rtl import BENCH
 from .scene import Scene
 
 PREVIEW = 320  # columns of the preview at most
@@ -45,24 +48,39 @@ def render_sequence(
                 progress(done + place + 1, len(numbers))
 
 
-def digest(frame: Scene, config: Config) -> str:
-    """A name of all that a frame's picture depends on: its words, and what the shading takes from the scene."""
+def version(backend: str) -> str:
+    """A name of what renders: the model's sources; of the RTL its own, its bench and Verilator, too."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    tools = ""
+    if backend == "rtl":
+        files += [*top_sources(), *sorted(RTL.glob("*.svh")), *sorted(BENCH.iterdir())]
+        tools = metadata.version("verilator")
+    content = b"".join(path.read_bytes() for path in files)
+    return hashlib.sha256(f"{backend} {tools} ".encode() + content).hexdigest()
+
+
+def digest(frame: Scene, config: Config, renderer: str) -> str:
+    """A name of all that a frame's picture depends on: its words, what the shading takes from the scene, who renders.
+
+    renderer  its :func:`version`
+    """
     shading = [frame.light, frame.background, *frame.surfaces]
     text = json.dumps([asdict(config), *(table.model_dump(mode="json") for table in shading)], sort_keys=True)
     compiled = compile_scene(frame, config)
     words = descriptor_array(compiled).tobytes()
-    return hashlib.sha256(f"{compiled.width} {compiled.height} {text}".encode() + words).hexdigest()[:20]
+    return hashlib.sha256(f"{renderer} {compiled.width} {compiled.height} {text}".encode() + words).hexdigest()[:20]
 
 
 class Kept:
     """The pictures of a sequence in a folder, with a list of what each was made from: ``<scene>-frames.json``."""
 
-    def __init__(self, scene: Scene, config: Config, out: Path):
+    def __init__(self, scene: Scene, config: Config, backend: str, out: Path):
         frames = scene.frames()
         digits = len(str(len(frames) - 1))
         self.paths = [out / f"{scene.name}-{number:0{digits}}.png" for number in range(len(frames))]
         self.list = out / f"{scene.name}-frames.json"
-        self.wanted = [digest(frame, config) for frame in frames]
+        renderer = version(backend)
+        self.wanted = [digest(frame, config, renderer) for frame in frames]
         self.made: dict[str, str] = {}  # name of the picture: digest
 
     def resume(self) -> list[int]:

@@ -24,7 +24,11 @@ def curve(control: Sequence[int]) -> np.ndarray:
 
 
 def plot_ray(steps: Sequence[Step], n1: int, count: int, title: str, path: Path) -> None:
-    """Draw a row for each step, from the whole ray down to the last digits. ``count``: K; ``path``: .png or .svg."""
+    """Draw a row for each step, from the whole ray down to the last digits.
+
+    count  steps to a hit
+    path   .png or .svg
+    """
     figure = Figure(figsize=(9, max(0.7, min(1.3, 16 / len(steps))) * len(steps) + 0.6), layout="constrained")
     rows = figure.subplots(len(steps), 1, squeeze=False)[:, 0]
     cells = 1 << n1

@@ -7,7 +7,7 @@ import numpy as np
 
 from .bound import bounded
 from .cells import subdivide
-from .compile import CompiledSurface
+from .compile import CompiledFrame, CompiledSurface
 from .config import Config
 from .core import FORM_AT, scratch
 from .ends import ends
@@ -100,6 +100,13 @@ def pixel_of(surface: CompiledSurface, x: int, y: int) -> CompiledSurface:
         ]
     out += surface.words[FORM_AT:] if surface.is_vector_sum else ()
     return surface._replace(words=tuple(out), rect=(x, y, x, y))
+
+
+def alone(compiled: CompiledFrame, surface: CompiledSurface, x: int, y: int) -> CompiledFrame:
+    """A frame of one pixel with the ray of pixel (x, y) on a surface. Raises ValueError as :func:`pixel_of`."""
+    one = pixel_of(surface, x, y)
+    one = one._replace(words=(one.words[0], 0, *one.words[2:]), rect=(0, 0, 0, 0))
+    return compiled._replace(width=1, height=1, surfaces=(one,))
 
 
 def state_at(surface: CompiledSurface, x: int, y: int) -> np.ndarray:

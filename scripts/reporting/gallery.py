@@ -13,6 +13,7 @@ import numpy as np
 from PIL import Image
 
 from raydix.image import ImageError, read_image
+from raydix.progress import track
 
 MISS = (38, 44, 58)  # colour of a pixel without a hit where a view has no value
 
@@ -140,4 +141,5 @@ def cards(folder: Path) -> list[Card]:
     """One for each scene under ``folder`` that has figures, those of the paper's figure 2 first."""
     first = ("torus", "hyperboloid", "spiral")
     found = [path.parent for path in folder.glob("*/*.json") if path.stem == path.parent.name]
-    return [card(path) for path in sorted(found, key=lambda p: (first.index(p.name) if p.name in first else 3, p.name))]
+    found.sort(key=lambda p: (first.index(p.name) if p.name in first else 3, p.name))
+    return [card(path) for path in track(found, "scenes")]
