@@ -145,7 +145,7 @@ def test_localises_a_broken_design(broken):
 @pytest.mark.long
 def test_replays_what_verify_has_found(broken):
     """The second step unit of a narrow ring is wrong, where there is one: the command that verify prints finds that."""
-    wrong = "segment_t'((u == 1 && W == 30) ? segment[u] ^ (segment_t'(1) << 3) : segment[u])"
+    wrong = "segment_t'((u == 1 && W == 30) ? segment[u] ^ (segment_t'(1) << 25) : segment[u])"
     root = broken("rdx_ring.sv", ".segment_i(segment[u])", f".segment_i({wrong})")
     scene = root / "scenes" / "the sphere's.toml"
     shutil.copy(root / "scenes" / "sphere.toml", scene)
