@@ -6,6 +6,7 @@
     scripts/realtime.py SCENE --rings 4       one scene, on a processor of its own; parameters as those of raydix render
     scripts/realtime.py --work                steps done over those needed, instead, of every scene, 1920x1080
     scripts/realtime.py --skips               what each kind of skipping saves, instead, of every scene, 320x240
+    scripts/realtime.py --digits              what fewer digits change in the picture, instead, by the golden model
     scripts/realtime.py --write               renew the table in docs/realtime.md, too
 
 Cycles are those of the RTL under Verilator, counted by the processor itself. Every picture is compared with the golden
@@ -14,8 +15,12 @@ model's; exit status 1 where a bit differs. The clock is that of the design poin
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
+from picture_error import picture_errors
 from raydix.blocks import show_table, write_table
 from raydix.command import COUNT, image_size, status_of, whole
 from raydix.compile import compile_scene
@@ -24,6 +29,7 @@ from raydix.fit import families, frame_parameters
 from raydix.golden import trace_golden
 from raydix.processor import ALL, SKIPS, run_frames
 from raydix.progress import track
+from raydix.render import steps_of
 from raydix.scene import load_scene
 from raydix.shade import compose
 from synth import PAGE as SIZES
@@ -34,9 +40,11 @@ PAGE = ROOT / "docs" / "realtime.md"
 SCENES = ROOT / "scenes"
 BUILT = {"torus": "render-torus", "hyperboloid": "render-quadric", "spiral": "render-spiral"}  # scene: design point
 RATE = 60  # frames a second
-SPEED = ("scene", "size", "processor", "n1", "rings", "rays", "steps", "steps / needed", "cycles",
+SPEED = ("scene", "size", "processor", "n1", "digits", "rings", "rays", "steps", "steps / needed", "cycles",
          "clock for 60 Hz, MHz", "LUT4", "placed, MHz", "frames a second")  # fmt: skip
 WORK = ("scene", "rays", "visible layers", "steps", "steps / needed", "cycles")
+FEWER = ("scene", "processor", "n1", "K", "digits", "steps", "pixels that differ", "largest difference, levels",
+         "PSNR, dB", "FLIP", "silhouette")  # fmt: skip
 SAVED = ("scene", "steps / needed", "all on", *(f"without {name}" for name in SKIPS), "all off", "saved")
 
 
@@ -61,6 +69,12 @@ def own_config(scene, args):
     )  # fmt: skip
 
 
+def chosen(scene, args):
+    """The design point for a scene, None where there is none or parameters are given, and the configuration."""
+    point = None if args.own else BUILT.get(scene.name)
+    return point, point_config(point) if point else own_config(scene, args)
+
+
 def placed(point):
     """(LUT4, clock in MHz) of a design point's row in docs/synthesis.md, as texts; empty where there is none."""
     for line in SIZES.read_text().splitlines():
@@ -82,24 +96,23 @@ def work(config, counted):
     return f"{counted['steps'] / (config.steps * visible + max(0, counted['rays'] - visible)):.3f}"
 
 
-def speed_row(path, args):
-    """A row of the table, and whether the picture is the golden model's."""
+def speed_rows(path, args):
+    """The row of a scene, and whether the picture is the golden model's."""
     scene = load_scene(path, *args.size)
-    point = None if args.own else BUILT.get(scene.name)
-    config = point_config(point) if point else own_config(scene, args)
+    point, config = chosen(scene, args)
     compiled, frame = golden(scene, config)
     output = run_frames([(scene, compiled)], config)
     counted = output.counters
     lut, clock = placed(point) if point else ("", "")
     rings = config.rings if config.degree else config.vector_rings
-    row = [scene.name, f"{args.size[0]}×{args.size[1]}", point or "", str(config.n1), str(rings)]
+    row = [scene.name, f"{args.size[0]}×{args.size[1]}", point or "", str(config.n1), str(config.digits), str(rings)]
     row += [f"{counted['rays']:,}", f"{counted['steps']:,}", work(config, counted), f"{counted['cycles']:,}"]
     row += [f"{counted['cycles'] * RATE / 1e6:.1f}", lut, clock]
     row += [f"{float(clock) * 1e6 / counted['cycles']:.1f}" if clock else ""]
-    return row, (output.rgb[0] == frame.rgb).all()
+    return [row], (output.rgb[0] == frame.rgb).all()
 
 
-def work_row(path, args):
+def work_rows(path, args):
     """Steps done and needed on a processor of its own, and whether the picture is the golden model's."""
     scene = load_scene(path, *args.size)
     config = own_config(scene, args)
@@ -107,10 +120,11 @@ def work_row(path, args):
     output = run_frames([(scene, compiled)], config)
     counted = output.counters
     row = [scene.name, *(f"{counted[name]:,}" for name in ("rays", "visible", "steps"))]
-    return [*row, work(config, counted), f"{counted['cycles']:,}"], (output.rgb[0] == frame.rgb).all()
+    row += [work(config, counted), f"{counted['cycles']:,}"]
+    return [row], (output.rgb[0] == frame.rgb).all()
 
 
-def saved_row(path, args):
+def saved_rows(path, args):
     """Cycles with all kinds of skipping, without each, and without any."""
     scene = load_scene(path, *args.size)
     config = own_config(scene, args)
@@ -121,7 +135,24 @@ def saved_row(path, args):
         same &= bool((output.rgb[0] == frame.rgb).all())
         cycles.append(output.counters["cycles"])
         ratio = ratio or work(config, output.counters)
-    return [scene.name, ratio, *(f"{c:,}" for c in cycles), f"{1 - cycles[0] / cycles[-1]:.0%}"], same
+    return [[scene.name, ratio, *(f"{c:,}" for c in cycles), f"{1 - cycles[0] / cycles[-1]:.0%}"]], same
+
+
+def fewer_rows(path, args):
+    """Pictures of a design point with fewer and fewer steps, down to 12 digits, beside that of 24; no RTL."""
+    scene = load_scene(path, *args.size)
+    point, most = chosen(scene, args)
+    n1, rows, finest = most.n1, [], None
+    for steps in range(24 // n1, 12 // n1 - 1, -1 if n1 > 1 else -2):
+        config = replace(most, steps=steps, k_stop=None)
+        _, frame = golden(scene, config)
+        finest = finest or frame
+        apart = np.abs(frame.rgb.astype(int) - finest.rgb).max(axis=2)
+        error = picture_errors(frame.rgb, finest.rgb)
+        row = [scene.name, point or "", str(n1), str(steps), str(config.digits), f"{steps_of(frame).sum():,}"]
+        row += [f"{(apart > 0).sum():,}", str(apart.max()), f"{error['psnr']:.1f}" if error["psnr"] else "same"]
+        rows.append([*row, f"{error['flip']:.6f}", str(((frame.t < 0) != (finest.t < 0)).sum())])
+    return rows, True
 
 
 def main():
@@ -137,6 +168,7 @@ def main():
     table = parser.add_mutually_exclusive_group()
     table.add_argument("--work", action="store_true", help="steps done over those needed")
     table.add_argument("--skips", action="store_true", help="what each kind of skipping saves")
+    table.add_argument("--digits", action="store_true", help="what fewer digits change in the picture")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/realtime.md")
     args = parser.parse_args()
     defaults = {"n1": 3, "rings": 4, "lanes": None, "vector_rings": 1, "beat": 2}
@@ -144,19 +176,21 @@ def main():
     for name, value in defaults.items():
         setattr(args, name, value if getattr(args, name) is None else getattr(args, name))
     args.size = args.size or ((320, 240) if args.skips else (1920, 1080))
-    header, row_of, name = SPEED, speed_row, "speed"
+    header, rows_of, name = SPEED, speed_rows, "speed"
     if args.work:
-        header, row_of, name = WORK, work_row, "work"
+        header, rows_of, name = WORK, work_rows, "work"
     if args.skips:
-        header, row_of, name = SAVED, saved_row, "skips"
+        header, rows_of, name = SAVED, saved_rows, "skips"
+    if args.digits:
+        header, rows_of, name = FEWER, fewer_rows, "digits"
     every = sorted(SCENES.glob("*.toml"))
     scenes = args.scene or (every if args.work or args.skips else [SCENES / f"{name}.toml" for name in BUILT])
-    results = [row_of(path, args) for path in track(scenes, "scenes")]
-    rows = [row for row, _ in results]
+    results = [rows_of(path, args) for path in track(scenes, "scenes")]
+    rows = [row for found, _ in results for row in found]
     show_table("Cycles of a frame", header, rows, ("scene",), 200)
     if args.write:
         write_table(PAGE, name, header, rows)
-    wrong = [row[0] for row, same in results if not same]
+    wrong = [found[0][0] for found, same in results if not same]
     if wrong:
         print(f"realtime: not the golden model's picture: {', '.join(wrong)}", file=sys.stderr)
     return int(bool(wrong))

@@ -99,9 +99,10 @@ POINTS = {
     "render-torus": Point(
         "rdx_render",
         {
+            "K": 6,
             "D": 4,
             "U": 1,
-            "Rings": 4,
+            "Rings": 3,
             "Rules": 1,
             "Clip": 0,
             "HalveStages": 1,
@@ -113,7 +114,7 @@ POINTS = {
         },
         slow=True,
         target=100,
-        density=0.8,
+        density=0.7,
     ),
     "render-spiral": Point(
         "rdx_render",

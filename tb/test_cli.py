@@ -329,7 +329,7 @@ def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     line = next(line for line in said.splitlines() if "step by step: " in line)
     assert line.startswith(f"sphere: the first pixel that differs is {x},{y}; ")
     words = shlex.split(line.split("step by step: ")[1])
-    assert words[1:3] == [str(ROOT / "scripts" / "trace_ray.py"), sphere]
+    assert [str(Path(words[1]).resolve()), words[2]] == [str(ROOT / "scripts" / "trace_ray.py"), sphere]
     assert words[3:] == ["--pixel", f"{x},{y}", "--surface", "0", "--steps", "2", "--units", "1", "--size", "24x18"]
 
 

@@ -46,7 +46,7 @@ SLOW = {
     "make render": f'make render {TINY} --units 1" OUT={{out}}',
     "make lint": "make lint",
     "make speed": 'make speed SCENE=scenes/sphere.toml ARGS="--runs 1 --units 1"',
-    "make realtime": f'make realtime {TINY}"',
+    "make realtime": f'make realtime {TINY} --rings 1"',
     "make bench": f'make bench {TINY} --repeats 1 --out {{out}}"',
     "make bench-full": 'make bench-full ARGS="--size 32x24 --repeats 1 --out {out}"',
     "make search": 'make search ARGS="--generations 1 --rays 200"',
@@ -55,7 +55,6 @@ SLOW = {
     "make pnr": "make pnr POINT=count",
     "make coverage": "make coverage T=delay",
     "make second": 'make second T=register ARGS="--seed 1"',
-    "scripts/realtime.py": "scripts/realtime.py scenes/sphere.toml --size 48x36 --rings 1 --work",
     "scripts/synth.py": ".venv/bin/python scripts/synth.py count --no-pnr",
 }
 # Those that need more than a command: the test that runs them.
