@@ -118,7 +118,7 @@ figures: $(READY) ## draw the figures of docs/method.md from what the golden mod
 
 trace-ray: $(READY) ## follow the ray of a pixel through golden model and RTL, step by step, and draw it (SCENE= PIXEL=x,y ARGS=)
 	@[ -n "$(SCENE)" ] && [ -n "$(PIXEL)" ] || { \
-	  echo "make trace-ray: found SCENE=$(SCENE) PIXEL=$(PIXEL); allowed: both, for example SCENE=scenes/torus.toml PIXEL=320,200" >&2; exit 2; }
+	  echo "make trace-ray: found SCENE=$(SCENE) PIXEL=$(PIXEL); allowed: both, for example SCENE=scenes/torus.toml PIXEL=300,140" >&2; exit 2; }
 	@$(BIN)/python scripts/trace_ray.py "$(SCENE)" --pixel "$(PIXEL)" $(ARGS)
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)

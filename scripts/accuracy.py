@@ -19,7 +19,7 @@ from rich.table import Table
 
 from raydix.accuracy import DepthErrors, depth_errors
 from raydix.blocks import write_table
-from raydix.command import above, image_size, status_of
+from raydix.command import INTEGER, above, image_size, status_of, whole
 from raydix.config import RULES, Config
 from raydix.fit import families
 from raydix.image import text_writer, write_files
@@ -82,14 +82,14 @@ def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="*", type=Path, help="scene files (default: all of scenes/)")
     parser.add_argument("--rule", choices=RULES, default=reference.rule)
-    parser.add_argument("--n1", type=int, default=reference.n1, help="digits per step")
-    parser.add_argument("--steps", type=int, default=reference.steps, help="steps K")
-    parser.add_argument("--width", type=int, default=reference.width, help="bits W of a control point")
+    parser.add_argument("--n1", type=INTEGER, default=reference.n1, help="digits per step")
+    parser.add_argument("--steps", type=INTEGER, default=reference.steps, help="steps K")
+    parser.add_argument("--width", type=INTEGER, default=reference.width, help="bits W of a control point")
     parser.add_argument("--size", type=image_size, default=(None, None), metavar="WxH", help="image size")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers to FILE, too")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/accuracy.md")
     limits = parser.add_argument_group("limits per scene (exit status 1 when exceeded)")
-    limits.add_argument("--max-silhouette", type=int, default=0, metavar="PIXELS")
+    limits.add_argument("--max-silhouette", type=whole(0), default=0, metavar="PIXELS")
     limits.add_argument("--max-ulp", type=above(0), metavar="ULP", help="largest error in ulp")
     limits.add_argument("--max-depth", type=above(0), metavar="LENGTH", help="largest depth error")
     limits.add_argument("--max-rms", type=above(0), metavar="LENGTH", help="rms depth error")

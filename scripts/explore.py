@@ -29,7 +29,7 @@ from exploration.measure import TOOLS, key, measure
 from exploration.pareto import FRONTS, Point, front, point_of, recommended
 from exploration.plot import plot
 from raydix.blocks import show_table, write_table
-from raydix.command import status_of
+from raydix.command import COUNT, status_of
 from raydix.config import ConfigError
 from raydix.image import csv_writer, text_writer, write_files
 from raydix.progress import bars
@@ -177,10 +177,10 @@ def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("family", nargs="*", help=f"{', '.join(SCENE_OF)} (default: all)")
-    parser.add_argument("--limit", type=int, help="only so many points")
+    parser.add_argument("--limit", type=COUNT, help="only so many points")
     parser.add_argument("--no-pnr", dest="pnr", action="store_false", help="no place and route")
     parser.add_argument("--kept", action="store_true", help="measure nothing: show what was measured so far")
-    parser.add_argument("--jobs", type=int, default=2, help="points at a time on this machine (default: 2)")
+    parser.add_argument("--jobs", type=COUNT, default=2, help="points at a time on this machine (default: 2)")
     parser.add_argument(
         "--scheduler", type=scheduler, metavar="tcp://HOST:PORT", help="of a Dask cluster that measures them"
     )

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from raydix.blocks import write_table
 from raydix.chords import chord_quads, paper_float, random_chords, rates, trace_chords
-from raydix.command import COUNT, SEED, above, status_of
+from raydix.command import COUNT, INTEGER, SEED, above, status_of
 from raydix.config import Config
 from raydix.image import text_writer, write_files
 from raydix.oracle import chord_roots, quadrics
@@ -59,7 +59,7 @@ def main():
     parser.add_argument("--chords", type=COUNT, default=200_000, help="chords tried (default: 200000)")
     parser.add_argument("--seed", type=SEED, default=1)
     parser.add_argument("--radius", type=above(0), default=1.0, help="of the sphere that the ends lie on (default: 1)")
-    parser.add_argument("--width", type=int, default=36, help="W, bits of a control point (default: 36)")
+    parser.add_argument("--width", type=INTEGER, default=36, help="W, bits of a control point (default: 36)")
     parser.add_argument("--json", type=Path, help="write the figures there, too")
     parser.add_argument("--write", action="store_true", help="renew the table in docs/accuracy.md")
     args = parser.parse_args()

@@ -35,7 +35,7 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from raydix.blocks import read_table, write_table
-from raydix.command import status_of
+from raydix.command import SEED, status_of
 from raydix.files import RTL, parts, sources
 from raydix.image import text_writer, write_files
 
@@ -508,7 +508,7 @@ def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"design points: {', '.join(POINTS)}")
     parser.add_argument("--no-pnr", dest="pnr", action="store_false", help="counts only, no place and route")
-    parser.add_argument("--seed", type=int, default=1, help="of place and route (default: 1)")
+    parser.add_argument("--seed", type=SEED, default=1, help="of place and route (default: 1)")
     parser.add_argument("--jobs", type=positive, default=1, help="points at a time (default: 1)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers to FILE, too")
     parser.add_argument("--write", action="store_true", help="renew the rows measured in docs/synthesis.md")

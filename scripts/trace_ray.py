@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Follow the ray of one pixel, step by step, through golden model and RTL, and draw it.
 
-    scripts/trace_ray.py scenes/torus.toml --pixel 320,200
+    scripts/trace_ray.py scenes/torus.toml --pixel 300,140
     scripts/trace_ray.py SCENE --pixel X,Y --surface 2 --n1 2 --rule paper
     scripts/trace_ray.py SCENE --pixel X,Y --no-rtl
 
@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 
 from raydix.blocks import show_table
-from raydix.command import status_of
+from raydix.command import status_of, whole
 from raydix.compile import CompiledFrame, CompiledSurface, compile_scene
 from raydix.config import Config, ConfigError
 from raydix.image import check_folder, write_files
@@ -44,7 +44,7 @@ def pixel(text: str) -> tuple[int, int]:
     """X,Y."""
     match = re.fullmatch(r"(\d{1,5}),(\d{1,5})", text)
     if not match:
-        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: X,Y, for example 320,200")
+        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: X,Y, for example 300,140")
     return int(match[1]), int(match[2])
 
 
@@ -114,7 +114,7 @@ def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="scene file (TOML)")
     parser.add_argument("--pixel", type=pixel, required=True, metavar="X,Y", help="column and row, from 0")
-    parser.add_argument("--surface", type=int, metavar="I", help="only this surface")
+    parser.add_argument("--surface", type=whole(0), metavar="I", help="only this surface")
     add_scene_options(parser)
     parser.set_defaults(units=1)  # one is easier to read in a waveform
     parser.add_argument("--no-rtl", dest="rtl", action="store_false", help="the golden model only")

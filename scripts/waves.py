@@ -20,7 +20,7 @@ import sys
 from pathlib import Path
 
 from pytests import run_pytest
-from raydix.command import status_of
+from raydix.command import COUNT, SEED, status_of, whole
 from raydix.image import ImageError, write_files
 from raydix.progress import working
 from viewing.picture import draw, first_valid, period_of
@@ -53,11 +53,11 @@ def test_named(text: str) -> str:
     return found[0]
 
 
-def run(name: str, seed: str | None) -> tuple[int, Path]:
+def run(name: str, seed: int | None) -> tuple[int, Path]:
     """Run a test with a waveform: (exit status of pytest, the waveform). Raises :class:`WavesError`."""
     WAVES.mkdir(parents=True, exist_ok=True)
     before = {path: path.stat().st_mtime_ns for path in WAVES.glob("*.vcd")}
-    settings = {**os.environ, "WAVES": "vcd", **({"SEED": seed} if seed else {})}
+    settings = {**os.environ, "WAVES": "vcd", **({} if seed is None else {"SEED": str(seed)})}
     print(f"waves: {name} with a waveform …", file=sys.stderr, flush=True)
     status = run_pytest([name], "test", settings)
     new = [p for p in WAVES.glob("*.vcd") if before.get(p) != p.stat().st_mtime_ns and not p.stem.endswith(WRITTEN)]
@@ -114,16 +114,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("test", nargs="?", help="a module, or module[part of a test's name")
     parser.add_argument("--file", type=Path, help="a waveform (VCD) that is there, in place of a test")
-    parser.add_argument("--seed", help="of the random stimuli")
-    parser.add_argument("--start", type=int, help="first clock of the picture (default: two before the first valid)")
-    parser.add_argument("--clocks", type=int, default=30, help="clocks in the picture (default: 30)")
+    parser.add_argument("--seed", type=SEED, help="of the random stimuli")
+    parser.add_argument(
+        "--start", type=whole(0), help="first clock of the picture (default: two before the first valid)"
+    )
+    parser.add_argument("--clocks", type=COUNT, default=30, help="clocks in the picture (default: 30)")
     args = parser.parse_args()
     if (args.test is None) == (args.file is None):
         parser.error("found both or none of TEST and --file; allowed: one")
-    if args.start is not None and args.start < 0:
-        parser.error(f"--start: found {args.start}; allowed: 0 or more")
-    if args.clocks < 1:
-        parser.error(f"--clocks: found {args.clocks}; allowed: 1 or more")
     try:
         status, wave = (0, args.file) if args.file else run(test_named(args.test), args.seed)
         with working(f"reading and drawing {wave.name}"):

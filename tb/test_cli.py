@@ -10,6 +10,7 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import OpenImageIO as oiio
@@ -17,7 +18,7 @@ import pytest
 
 from raydix import cli, image, render
 from raydix.cli import main
-from raydix.config import Config
+from raydix.config import Config, ConfigError
 from raydix.fit import families, frame_parameters
 from raydix.image import CHANNELS
 from raydix.scene import load_scene
@@ -418,6 +419,21 @@ def test_too_thin_clip_is_refused(tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+def test_size_of_a_wave(tmp_path, monkeypatch, capsys):
+    """Where a waveform takes gigabytes its size is told; more than is free is refused, and nothing is written."""
+    scene = SimpleNamespace(camera=SimpleNamespace(width=640, height=480))
+    usage = cli.shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(cli.shutil, "disk_usage", lambda path: usage._replace(free=int(70e9)))
+    cli._check_wave(tmp_path / "new" / "a.vcd", scene)
+    assert "the waveform takes about 61.4 GB for 640×480 pixels; less: a smaller --size" in capsys.readouterr().err
+    monkeypatch.setattr(cli.shutil, "disk_usage", lambda path: usage._replace(free=int(2e9)))
+    with pytest.raises(ConfigError, match="wave: found about 61.4 GB for 640×480 pixels; allowed: less than 2.0 GB"):
+        cli._check_wave(tmp_path / "new" / "a.vcd", scene)
+    scene.camera.width = 4
+    cli._check_wave(tmp_path / "a.fst", scene)
+    assert not capsys.readouterr().err and not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("name", ["wave.vcd", "wave.png", "wave.fst"])
 def test_wave(name, tmp_path, capsys):
     """The RTL back end writes a VCD; FST where lz4.h is there; another ending is refused."""
@@ -428,7 +444,8 @@ def test_wave(name, tmp_path, capsys):
     status = main([*command, "--units", "1", "--steps", "2", "--wave", str(wave)])
     if name.endswith("png") or (name.endswith("fst") and not has_fst()):
         assert status == 2 and not wave.exists() and not out.exists()
-        assert "waveform format: found" in capsys.readouterr().err
+        said = capsys.readouterr().err
+        assert said == f"raydix: wave: found '{wave}'; allowed: a file .vcd or .fst\n"  # before anything is built
     else:
         assert status == 0 and (out / "sphere.png").is_file()
         assert name.endswith("fst") or "u_ring" in wave.read_text()

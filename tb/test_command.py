@@ -36,6 +36,27 @@ def test_every_script_ends_by_it(path):
     assert path.read_text().endswith("    sys.exit(status_of(main))\n")
 
 
+def test_whole_numbers():
+    """With no limit, with one, with two: what is none, or beyond them, is told."""
+    assert [command.INTEGER("-7"), command.SEED("0"), command.whole(1, 4)("4")] == [-7, 0, 4]
+    for kind, text, allowed in (
+        (command.INTEGER, "3.5", "whole numbers"),
+        (command.SEED, "-1", "whole numbers, 0 or more"),
+        (command.whole(1, 4), "5", "whole numbers, 1 to 4"),
+    ):
+        with pytest.raises(argparse.ArgumentTypeError) as error:
+            kind(text)
+        assert str(error.value) == f"found '{text}'; allowed: {allowed}"
+
+
+def test_seed_of_the_environment():
+    """A SEED that is none is refused before any test, with what is allowed."""
+    words = [sys.executable, "-m", "pytest", "--collect-only", "-q", "tb/test_delay.py"]
+    done = subprocess.run(words, cwd=ROOT, env=os.environ | {"SEED": "abc"}, text=True, capture_output=True)
+    assert done.returncode == pytest.ExitCode.USAGE_ERROR
+    assert done.stderr.strip() == "ERROR: SEED: found 'abc'; allowed: whole numbers, 0 or more"
+
+
 @pytest.mark.parametrize(
     "error, status, said",
     [

@@ -214,13 +214,13 @@ def test_picture(wave):
         (["settle[N1=9"], "T: found 'settle[N1=9'; allowed of this module: test_settle[N1=3-K=8-W=36-D=4]"),
         (["../../x"], "T: found '../../x'; allowed: accuracy, advance"),
         (["--file", "up.vcd"], "up.vcd: found no waveform"),
-        (["--file", "still.vcd", "--start", "-5"], "--start: found -5"),
+        (["--file", "still.vcd", "--start", "-5"], "--start: found '-5'; allowed: whole numbers, 0 or more"),
         (["--file", "missing.vcd"], "missing.vcd: No such file or directory"),
         (["--file", "bad.vcd"], "bad.vcd: found no waveform"),
         (["--file", "still.vcd"], "still.vcd: found a clock that does not run"),
         (["--file", "none.vcd"], "none.vcd: found no clk_i"),
         ([], "found both or none of TEST and --file"),
-        (["--file", "still.vcd", "--clocks", "0"], "--clocks: found 0"),
+        (["--file", "still.vcd", "--clocks", "0"], "--clocks: found '0'; allowed: whole numbers, 1 or more"),
     ],
 )
 def test_bad_input(tmp_path, monkeypatch, arguments, said):

@@ -5,6 +5,7 @@ import argparse
 import json
 import os
 import shlex
+import shutil
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from .command import status_of
+from .command import INTEGER, status_of
 from .config import Config, ConfigError
 from .files import ROOT
 from .formats import STEPS_MAX
@@ -28,14 +29,14 @@ from .scene import Scene
 if TYPE_CHECKING:
     from .render import Verdict
 
-
 THREADS_MAX = 256  # more than a picture has pieces for
+WAVE_BYTES = {".vcd": 200_000, ".fst": 14_000}  # a pixel, about: torus, 16x12 and 32x24, eight units, 36 bits
 
 
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     add_scene_options(parser)
     threads = min(os.cpu_count() or 1, THREADS_MAX)
-    parser.add_argument("--threads", type=int, default=threads, metavar="N", help="threads of the golden model")
+    parser.add_argument("--threads", type=INTEGER, default=threads, metavar="N", help="threads of the golden model")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -133,6 +134,8 @@ def _render(args: argparse.Namespace) -> int:
         raise ConfigError("resume: found for a single frame; allowed: with --frames")
     if args.wave and args.backend != "rtl":
         raise ConfigError(f"wave: found '{args.wave}' with the golden model; allowed: with --backend rtl")
+    if args.wave:
+        _check_wave(args.wave, scene)
     if args.backend == "rtl":
         _build(config, args.wave.suffix[1:] if args.wave else None)
     with _progress() as bar:
@@ -144,6 +147,24 @@ def _render(args: argparse.Namespace) -> int:
     for path in write_files(frame_writers(frame, args.out, scene.name)):
         print(path)
     return 0
+
+
+def _check_wave(wave: Path, scene: Scene) -> None:
+    """A word about the size of a waveform. Raises ConfigError and ImageError where it cannot be written."""
+    if wave.suffix not in WAVE_BYTES:
+        raise ConfigError(f"wave: found '{wave}'; allowed: a file {' or '.join(WAVE_BYTES)}")
+    check_folder(wave.parent)
+    camera = scene.camera
+    size = camera.width * camera.height * WAVE_BYTES[wave.suffix]
+    there = next(path for path in (wave.absolute().parent, *wave.absolute().parents) if path.exists())
+    free = shutil.disk_usage(there).free
+    text = f"{size / 1e9:.1f} GB for {camera.width}×{camera.height} pixels"
+    if size > free:
+        raise ConfigError(
+            f"wave: found about {text}; allowed: less than {free / 1e9:.1f} GB, what is free: a smaller --size"
+        )
+    if size > 1e9:
+        print(f"raydix: the waveform takes about {text}; less: a smaller --size", file=sys.stderr)
 
 
 def _render_frames(args: argparse.Namespace, scene: Scene, config: Config) -> int:

@@ -30,14 +30,16 @@ def image_size(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def whole(low: int, high: int | None = None) -> Callable[[str], int]:
+def whole(low: int | None = None, high: int | None = None) -> Callable[[str], int]:
     """A type of arguments: whole numbers of ``low`` to ``high``, both included. It raises ArgumentTypeError."""
 
     def number(text: str) -> int:
-        if re.fullmatch(r"[+-]?[0-9]{1,18}", text) and int(text) >= low and (high is None or int(text) <= high):
-            return int(text)
-        limits = f"{low} or more" if high is None else f"{low} to {high}"
-        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: whole numbers, {limits}")
+        if re.fullmatch(r"[+-]?[0-9]{1,18}", text):
+            value = int(text)
+            if (low is None or value >= low) and (high is None or value <= high):
+                return value
+        limits = "" if low is None else f", {low} or more" if high is None else f", {low} to {high}"
+        raise argparse.ArgumentTypeError(f"found '{text}'; allowed: whole numbers{limits}")
 
     return number
 
@@ -69,6 +71,7 @@ def workers(count: int) -> Iterator[Pool]:
         yield pool
 
 
+INTEGER = whole()  # its limits are told where they are known
 SEED = whole(0)
 COUNT = whole(1)
 

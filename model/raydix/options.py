@@ -4,7 +4,7 @@
 import argparse
 from pathlib import Path
 
-from .command import image_size
+from .command import INTEGER, image_size
 from .config import RULES, Config, ConfigError
 from .fit import families, frame_parameters
 from .scene import Scene, load_scene
@@ -17,17 +17,21 @@ def add_scene_options(parser: argparse.ArgumentParser) -> list[argparse.Action]:
     add = parser.add_argument
     return [
         add("--rule", choices=RULES, default="certified", help="how a cell is chosen (default: certified)"),
-        add("--n1", type=int, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)"),
-        add("--steps", type=int, metavar="K", help="steps to a hit (default: as many as make 24 digits)"),
-        add("--k-stop", type=int, metavar="K", help="steps to a hit in this frame (default: all)"),
-        add("--width", type=int, default=36, metavar="W", help="bits of a control point (default: 36)"),
-        add("--units", type=int, metavar="U", help="step units of an RTL ring (default: 8, at most K)"),
-        add("--rings", type=int, default=1, metavar="N", help="rings side by side (default: 1)"),
-        add("--halve-stages", type=int, metavar="N", help="clocks of a halving (default: two rows of averages each)"),
-        add("--lanes", type=int, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)"),
-        add("--vector-units", type=int, default=1, metavar="U", help="step units in a vector-sum ring (default: 1)"),
-        add("--vector-rings", type=int, default=1, metavar="N", help="vector-sum rings (default: 1)"),
-        add("--beat", type=int, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)"),
+        add("--n1", type=INTEGER, default=3, metavar="N", help="digits fixed per step, 1 to 4 (default: 3)"),
+        add("--steps", type=INTEGER, metavar="K", help="steps to a hit (default: as many as make 24 digits)"),
+        add("--k-stop", type=INTEGER, metavar="K", help="steps to a hit in this frame (default: all)"),
+        add("--width", type=INTEGER, default=36, metavar="W", help="bits of a control point (default: 36)"),
+        add("--units", type=INTEGER, metavar="U", help="step units of an RTL ring (default: 8, at most K)"),
+        add("--rings", type=INTEGER, default=1, metavar="N", help="rings side by side (default: 1)"),
+        add(
+            "--halve-stages", type=INTEGER, metavar="N", help="clocks of a halving (default: two rows of averages each)"
+        ),
+        add("--lanes", type=INTEGER, metavar="N", help="evaluators of a vector-sum step unit (default: J - 1)"),
+        add(
+            "--vector-units", type=INTEGER, default=1, metavar="U", help="step units in a vector-sum ring (default: 1)"
+        ),
+        add("--vector-rings", type=INTEGER, default=1, metavar="N", help="vector-sum rings (default: 1)"),
+        add("--beat", type=INTEGER, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)"),
         add("--size", type=image_size, metavar="WxH", help="image size instead of the scene's"),
     ]
 
