@@ -23,14 +23,12 @@ from raydix.command import status_of, whole
 from raydix.compile import CompiledFrame, CompiledSurface, compile_scene
 from raydix.config import Config, ConfigError
 from raydix.image import check_folder, write_files
+from raydix.localise import first_difference, follow_both, surfaces_at
 from raydix.options import add_scene_options, config_of, scene_of
-from raydix.processor import run_frames
 from raydix.progress import working
 from raydix.rtl import TOP, build
-from raydix.scene import Scene
 from raydix.trace_plot import plot_ray
-from raydix.trace_ray import Step, alone, follow
-from raydix.waves import Output, step_outputs
+from raydix.trace_ray import Step, follow
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "build" / "trace"
@@ -46,18 +44,6 @@ def pixel(text: str) -> tuple[int, int]:
     if not match:
         raise argparse.ArgumentTypeError(f"found '{text}'; allowed: X,Y, for example 300,140")
     return int(match[1]), int(match[2])
-
-
-def difference(step: Step, output: Output | None) -> str:
-    """The first field in which the RTL differs, with both values; empty where none does."""
-    if output is None:
-        return "step: RTL took none"
-    pairs = [(name, getattr(step, name), getattr(output, name)) for name in ("status", "t", "next_t")]
-    if step.status == "run":  # of a step after which there is no other the control points mean nothing
-        pairs += [(f"b[{i}]", a, b) for i, (a, b) in enumerate(zip(step.after, output.after, strict=True))]
-    if step.status in ("run", "hit"):
-        pairs.append(("depth", step.depth, output.depth))
-    return next((f"{name}: golden {a}, RTL {b}" for name, a, b in pairs if a != b), "")
 
 
 def digits(t: int, config: Config, level: int) -> str:
@@ -94,21 +80,6 @@ def rows_of(steps: list[Step], differences: list[str], surface: CompiledSurface,
     return rows
 
 
-def run(
-    scene: Scene, surface: CompiledSurface, compiled: CompiledFrame, config: Config, args, stem: Path
-) -> tuple[list[Step], Path, list[str]]:
-    """Steps of the golden model; the waveform; where the RTL differs from each: empty, or a dash without RTL."""
-    steps, wave = follow(surface, config, *args.pixel), stem.with_name(f"{stem.name}.vcd")
-    if not args.rtl:
-        return steps, wave, ["–"] * len(steps)
-    run_frames([(scene, alone(compiled, surface, *args.pixel))], config, skips=frozenset(), wave=wave)
-    outputs = {output.number: output for output in step_outputs(wave)}
-    differences = [difference(step, outputs.get(step.number)) for step in steps]
-    if not any(differences) and len(outputs) > len(steps):
-        differences[-1] = f"step: RTL took {len(outputs)}"
-    return steps, wave, differences
-
-
 def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -127,12 +98,12 @@ def chosen(compiled: CompiledFrame, args) -> list[CompiledSurface]:
     x, y = args.pixel
     if not (x < compiled.width and y < compiled.height):
         raise ConfigError(f"--pixel: found {x},{y}; allowed: 0,0 to {compiled.width - 1},{compiled.height - 1}")
-    inside = [s for s in compiled.surfaces if s.rect[0] <= x <= s.rect[2] and s.rect[1] <= y <= s.rect[3]]
-    wanted = [s for s in inside if args.surface in (None, s.index)]
+    wanted = surfaces_at(compiled, x, y, args.surface)
     if not wanted:
-        what = "no surface" if args.surface is None else f"not surface {args.surface}"
-        others = ", ".join(str(s.index) for s in inside) or "none, choose another pixel"
-        raise ConfigError(f"--pixel: found {x},{y}, where {what} can be; surfaces there: {others}")
+        others = ", ".join(str(s.index) for s in surfaces_at(compiled, x, y, None))
+        if not others:
+            raise ConfigError(f"--pixel: found {x},{y}, where no surface can be; allowed: another pixel")
+        raise ConfigError(f"--surface: found {args.surface}, which cannot be at {x},{y}; allowed there: {others}")
     return wanted
 
 
@@ -151,18 +122,21 @@ def main(arguments=None) -> int:
     differ = 0
     for surface in surfaces:
         stem = args.out / f"{scene.name}-{x}-{y}-surface{surface.index}"
-        picture = stem.with_name(f"{stem.name}.png")
+        picture, wave = stem.with_name(f"{stem.name}.png"), stem.with_name(f"{stem.name}.vcd")
         kind = scene.surfaces[surface.index].type
         name = f"{scene.name}, pixel {x},{y}, surface {surface.index} ({kind}), {args.rule} rule"
         with working(f"following the ray on surface {surface.index}"):
-            steps, wave, differences = run(scene, surface, compiled, config, args, stem)
+            if args.rtl:
+                steps, differences = follow_both(scene, compiled, surface, config, x, y, wave)
+            else:
+                steps = follow(surface, config, x, y)
+                differences = ["–"] * len(steps)
             write_files({picture: partial(plot_ray, steps, config.n1, config.k_stop, name)})
         show_table(name, COLUMNS, rows_of(steps, differences, surface, config), ("control points", "RTL"), 200)
         print(f"picture: {picture}" + (f"; waveform: {wave}" if args.rtl else ""))
-        first = next((k for k, text in enumerate(differences) if args.rtl and text), None)
-        if first is not None:
+        if args.rtl and (first := first_difference(steps, differences)):
             differ = 1
-            print(f"RTL and golden model differ: step {steps[first].number}, {differences[first]}")
+            print(f"RTL and golden model differ: {first}")
     return differ
 
 

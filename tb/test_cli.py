@@ -332,6 +332,10 @@ def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     words = shlex.split(line.split("step by step: ")[1])
     assert [str(Path(words[1]).resolve()), words[2]] == [str(ROOT / "scripts" / "trace_ray.py"), sphere]
     assert words[3:] == ["--pixel", f"{x},{y}", "--surface", "0", "--steps", "2", "--units", "1", "--size", "24x18"]
+    # the bit was changed on the way to the picture: the steps themselves are the golden model's
+    assert said.endswith(
+        "sphere: alone, the ray takes the same steps in both: the mistake is before the rings or behind them\n"
+    )
 
 
 def test_first_ray_to_follow():

@@ -2,6 +2,7 @@
 """One ray followed: its steps end where the golden model's do, the RTL's are the same, a broken design is localised."""
 
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -156,10 +157,14 @@ def test_replays_what_verify_has_found(broken):
     (line,) = [line for line in done.stdout.splitlines() if "step by step: " in line]
     printed = line.split("step by step: ")[1]
     assert "--k-stop 4" in printed
+    where = re.search(
+        r"RTL and golden model differ: surface 0, (step 2, .*: golden \S+, RTL \S+); waveform: (.*)\n", done.stdout
+    )
+    assert where and Path(where[2]).exists()
     for left_out, status in (("--none", 1), ("--width 30", 0)):
         done = run(printed.replace(left_out, ""), root)
         assert done.returncode == status, done.stdout + done.stderr
-        assert ("RTL and golden model differ: step 2, " in done.stdout) == bool(status)
+        assert (f"RTL and golden model differ: {where[1]}\n" in done.stdout) == bool(status)
 
 
 @pytest.mark.parametrize(
@@ -187,7 +192,11 @@ def test_verify_names_the_same_design(script, name, options):
     [
         ("torus", ["--pixel", "64,0"], "allowed: 0,0 to 63,47"),
         ("spiral", ["--pixel", "0,0"], "another pixel"),
-        ("torus", ["--pixel", "38,18", "--surface", "3"], "surfaces there: 0"),
+        (
+            "torus",
+            ["--pixel", "38,18", "--surface", "3"],
+            "--surface: found 3, which cannot be at 38,18; allowed there: 0",
+        ),
         ("torus", ["--pixel", "38,18", "--n1", "5"], "n1: found 5; allowed: 1 to 4"),
         ("torus", ["--pixel", "38,18", "--steps", "0"], "steps: found 0; allowed: 1 to 10"),
         ("torus", ["--pixel", "38,18", "--k-stop", "9"], "k_stop: found 9; allowed: 1 to 8"),

@@ -207,6 +207,17 @@ def test_picture(wave):
     assert picture.shape[1] > 1000 and 20_000 < shaded < picture[..., 0].size / 2
 
 
+def test_rows_of_a_picture():
+    """Of too many ports those that stand still are left out first, then inputs; the order stays that of the ports."""
+    with scripts("viewing.signals", "viewing.picture") as waves:
+        ports = [waves.Signal((), f"port_{i}", 1, str(i), False, 0) for i in range(waves.ROWS + 5)]
+        outputs = {port.code for port in ports[-4:]}
+        known = {port.code: [(0, 0), (3, 1), *([(20, 0)] if i >= 3 else [])] for i, port in enumerate(ports)}
+        chosen = waves.important(ports, outputs, known, 10)
+        assert chosen == ports[3:-6] + ports[-4:]  # what changed before the start stands still
+        assert waves.important(ports[:9], outputs, known, 10) == ports[:9]
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -286,7 +286,9 @@ def _verify(args: argparse.Namespace) -> int:
             f"pictures: {out}/golden, {out}/rtl, {out}/{scene.name}-difference.png"
         )
         if verdict.hit_bits or verdict.image_bits:
-            print(f"{scene.name}: {_replay(verdict, config, scene, args)}")
+            print(f"{scene.name}: {_replay(verdict, config, scene, args)}", flush=True)
+            if where := _localise(verdict, config, scene, out):
+                print(f"{scene.name}: {where}")
     return int(any(v.hit_bits or v.image_bits for v in verdicts.values()))
 
 
@@ -301,6 +303,25 @@ def _replay(verdict: "Verdict", config: Config, scene: Scene, args: argparse.Nam
     words = [_from_here(Path(sys.executable)), _from_here(ROOT / "scripts" / "trace_ray.py"), str(scene.path)]
     words += ["--pixel", f"{x},{y}", *([] if surface is None else ["--surface", str(surface)]), *given(options)]
     return f"the first pixel that differs is {x},{y}; step by step: {shlex.join(words)}"
+
+
+def _localise(verdict: "Verdict", config: Config, scene: Scene, out: Path) -> str:
+    """The first step and signal in which the first ray that differs does; empty where no ray does."""
+    from .localise import first_difference, follow_both, surfaces_at
+
+    ray = verdict.first_ray()
+    if ray is None:
+        return ""
+    x, y, number = ray
+    compiled = verdict.golden.hits.compiled
+    _build(config, "vcd")
+    for surface in surfaces_at(compiled, x, y, number):
+        wave = out / f"{scene.name}-{x}-{y}-surface{surface.index}.vcd"
+        with working(f"following the ray on surface {surface.index}"):
+            first = first_difference(*follow_both(scene, compiled, surface, config, x, y, wave))
+        if first:
+            return f"RTL and golden model differ: surface {surface.index}, {first}; waveform: {wave}"
+    return "alone, the ray takes the same steps in both: the mistake is before the rings or behind them"
 
 
 def _from_here(path: Path) -> str:

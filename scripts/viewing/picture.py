@@ -12,13 +12,31 @@ CHARACTER = 0.0047  # width of one, as part of the time axis
 SHADE, INK = "#dbe6f6", "#24406e"
 
 
-def important(groups: list[Group]) -> list[Signal]:
-    """Clock and control of the module's ports first, then data: what has a number, then the rest."""
+def ports_of(groups: list[Group]) -> list[Signal]:
+    """The module's ports: single bits first, then what has a number, then the rest."""
     ports = [s for g in groups if g.name in ("clock", "inputs", "outputs") for s in g.signals]
     control = [s for s in ports if s.width == 1]
     numbers = [s for s in ports if s.number]
     rest = [s for s in ports if s.width > 1 and not s.number]
-    return [*control, *numbers, *rest][:ROWS]
+    return [*control, *numbers, *rest]
+
+
+def important(
+    ports: list[Signal], outputs: set[str], known: dict[str, list[tuple[int, int]]], start: int
+) -> list[Signal]:
+    """Of the ports, in their order, those that a picture from ``start`` on has room for.
+
+    Outputs that change come before inputs that do, both before what stays as it is.
+
+    outputs  codes of the module's outputs
+    """
+
+    def rank(signal: Signal) -> int:
+        still = not any(time > start for time, _ in known[signal.code])
+        return 2 if still else 0 if signal.code in outputs else 1
+
+    chosen = sorted(ports, key=rank)[:ROWS]
+    return [signal for signal in ports if signal in chosen]
 
 
 def history(wave: Path, signals: list[Signal], until: int) -> dict[str, list[tuple[int, int]]]:
@@ -58,8 +76,12 @@ def text_of(signal: Signal, bits: int) -> str:
 
 def draw(wave: Path, groups: list[Group], start: int, until: int, period: int, title: str, out: Path) -> None:
     """Write a PNG: a row for each signal, levels of single bits, boxes with values of the others."""
-    signals = important(groups)
-    known = history(wave, signals, until)
+    ports = ports_of(groups)
+    known = history(wave, ports, until)
+    outputs = {s.code for g in groups if g.name == "outputs" for s in g.signals}
+    signals = important(ports, outputs, known, start)
+    if len(signals) < len(ports):
+        title += f"; {len(signals)} of {len(ports)} signals, first what changes"
     figure = Figure(figsize=(16, 0.36 * len(signals) + 1.2), layout="constrained")
     axes = figure.subplots()
     for row, signal in enumerate(signals):
