@@ -144,8 +144,8 @@ def test_on_a_cluster(explore, tmp_path, capsys):
     "arguments, words",
     [
         (["sphere"], "found 'sphere'; allowed: quadric, quartic, spiral"),
-        (["--jobs", "0"], "--jobs: found 0; allowed: 1 or more"),
-        (["--limit", "0"], "--limit: found 0; allowed: 1 or more"),
+        (["--jobs", "0"], "--jobs: found '0'; allowed: whole numbers, 1 or more"),
+        (["--limit", "0"], "--limit: found '0'; allowed: whole numbers, 1 or more"),
         (["--scheduler", "foo"], "--scheduler: found 'foo'; allowed: tcp://HOST:PORT"),
         (["--scheduler", "tcp://host"], "--scheduler: found 'tcp://host'; allowed: tcp://HOST:PORT"),
         (["quadric", "--write"], "allowed: with all of it"),
