@@ -190,9 +190,6 @@ def parse(arguments):
     for name in options.family:
         if name not in SCENE_OF:
             parser.error(f"family: found {name!r}; allowed: {', '.join(SCENE_OF)}")
-    for name in ("jobs", "limit"):
-        if (value := getattr(options, name)) is not None and value < 1:
-            parser.error(f"--{name}: found {value}; allowed: 1 or more")
     if options.write and (options.family or options.limit or not options.pnr):
         parser.error("--write: found with a part of the sweep; allowed: with all of it")
     return options
