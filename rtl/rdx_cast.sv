@@ -23,6 +23,7 @@ module rdx_cast #(
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned VectorDrop = 0,
     parameter int unsigned Rings = 1,
     parameter int unsigned VectorRings = 1,
     parameter bit Limit = 1'b1  // limits are given
@@ -147,6 +148,7 @@ module rdx_cast #(
         .Rules(Rules),
         .Lanes(Lanes),
         .General(Vecsum != VecsumHelix),
+        .VectorDrop(VectorDrop),
         .Limit(Limit)
     ) u_vector (
         .clk_i,

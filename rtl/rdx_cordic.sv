@@ -5,7 +5,7 @@
 // is turned by half a turn first. x grows by the gain K = prod sqrt(1 + 4^-i), 1.6468.
 //
 // Formats    x_i, y_i, x_o: sWp0 of any fixed point; x_o = K times the length. angle_o: turns, u0p32; with Angle = 0
-//            constant 0 and not built. From iteration Still on x stays as it is: it would change by less than an ulp
+//            constant 0 and not built; its last AngleDrop digits are 0. From iteration Still on x stays as it is: it would change by less than an ulp
 //            where 2*Still > W. The length is right to 2^-(2*Iterations-1) of itself, the angle to 2^-Iterations.
 // Rounding   down, once in x and once in y in each iteration; the table of angles to nearest.
 // Overflow   cannot happen where K times the length plus Iterations is below 2^(W-1).
@@ -19,7 +19,8 @@ module rdx_cordic #(
     parameter int unsigned W = 38,
     parameter int unsigned Iterations = 28,
     parameter int unsigned Still = Iterations,
-    parameter bit Angle = 1'b1
+    parameter bit Angle = 1'b1,
+    parameter int unsigned AngleDrop = 0
 ) (
     input  wire logic                clk_i,
     input  wire logic                en_i,
@@ -110,18 +111,20 @@ module rdx_cordic #(
   wire unused = &{1'b0, gen_stage[Iterations].y_q};
 
   if (Angle) begin : gen_angle
+    localparam int unsigned A = AngleWidth - AngleDrop;
     for (genvar i = 0; i <= Iterations; i++) begin : gen_sum
-      angle_t angle_q;
+      logic [A-1:0] angle_q;
       if (i == 0) begin : gen_half_turn
-        always_ff @(posedge clk_i) if (en_i) angle_q <= {x_i < 0, (AngleWidth - 1)'(0)};
+        always_ff @(posedge clk_i) if (en_i) angle_q <= {x_i < 0, (A - 1)'(0)};
       end else begin : gen_turn
+        localparam logic [A-1:0] By = A'((Angles[i-1] + ((AngleWidth'(1) << AngleDrop) >> 1)) >> AngleDrop);
         wire below = gen_stage[i-1].y_q < 0;
-        wire [AngleWidth:0] sum = {gen_sum[i-1].angle_q, 1'b1} + {Angles[i-1] ^ {AngleWidth{below}}, below};
-        always_ff @(posedge clk_i) if (en_i) angle_q <= sum[AngleWidth:1];
+        wire [A:0] sum = {gen_sum[i-1].angle_q, 1'b1} + {By ^ {A{below}}, below};
+        always_ff @(posedge clk_i) if (en_i) angle_q <= sum[A:1];
         wire unused_carry = sum[0];
       end
     end
-    assign angle_o = gen_sum[Iterations].angle_q;
+    assign angle_o = angle_t'(gen_sum[Iterations].angle_q) << AngleDrop;
   end else begin : gen_length
     assign angle_o = '0;
   end

@@ -23,6 +23,7 @@ module rdx_core #(
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned VectorDrop = 0,
     parameter int unsigned Rings = 1,
     parameter int unsigned VectorRings = 1
 ) (
@@ -132,7 +133,8 @@ module rdx_core #(
         .Rings(VectorRings),
         .Rules(Rules),
         .Lanes(Lanes),
-        .General(Vecsum != VecsumHelix)
+        .General(Vecsum != VecsumHelix),
+        .VectorDrop(VectorDrop)
     ) u_vector (
         .clk_i,
         .rst_ni,

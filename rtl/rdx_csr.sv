@@ -27,6 +27,7 @@ module rdx_csr
     parameter int unsigned Vecsum = VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned VectorDrop = 0,
     parameter int unsigned Rings = 1,
     parameter int unsigned VectorRings = 1,
     parameter int unsigned Surfaces = 64,
@@ -159,7 +160,7 @@ module rdx_csr
   always_comb begin
     to_regs.PARAMETERS_SEARCH = '{'{8'(N1)}, '{8'(K)}, '{8'(U)}, '{8'(W)}};  // fields in the order of rdx_csr.rdl
     to_regs.PARAMETERS_KINDS = '{'{8'(D)}, '{4'(Vecsum)}, '{4'(Rules)}, '{8'(Lanes)}, '{8'(VectorUnits)}};
-    to_regs.PARAMETERS_RINGS = '{'{8'(Rings)}, '{8'(VectorRings)}, '{1'(Clip)}};
+    to_regs.PARAMETERS_RINGS = '{'{8'(Rings)}, '{8'(VectorRings)}, '{1'(Clip)}, '{4'(VectorDrop)}};
     to_regs.PARAMETERS_FRAME = '{'{8'(Surfaces)}, '{8'(Layers)}, '{13'(MaxWidth)}, '{3'(Pixels)}};
     to_regs.STATUS = '{busy: '{busy_i}, queued: '{start_valid_o}, done: '{done}, error: '{known}};
     to_regs.IRQ_STATUS = '{done: '{done_i}, error: '{error}};

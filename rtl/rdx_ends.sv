@@ -2,7 +2,7 @@
 // Indicator of a vector-sum surface at both ends of a new ray's segment, on one lane or two.
 //
 // Formats    ends_i: s2p30 and s1p31. segment_o: the ends, and b: the indicator at the near and the far end, s5p33.
-// Timing     latency rdx_pkg::VecsumLatency + Phases - 1 clocks that advance, a ray every Phases = 2/Lanes clocks; it
+// Timing     latency rdx_pkg::vecsum_latency + Phases - 1 clocks that advance, a ray every Phases = 2/Lanes clocks; it
 //            advances when the last stage is empty or taken.
 // Reset      valid, the phase and waiting lines' places.
 // Model      model/raydix/ends.py
@@ -13,6 +13,7 @@
 module rdx_ends #(
     parameter int unsigned Lanes = 2,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     localparam type segment_t = `RDX_SEGMENT_T(rdx_pkg::VectorWidth, 1)
 ) (
     input  wire logic           clk_i,
@@ -30,7 +31,7 @@ module rdx_ends #(
   import rdx_pkg::*;
 
   localparam int unsigned Phases = phases(2, Lanes);
-  localparam int unsigned Latency = VecsumLatency + Phases - 1;
+  localparam int unsigned Latency = vecsum_latency(VectorDrop) + Phases - 1;
 
   // ---- stream: all stages advance together; a ray enters in phase 0 ----
   logic [Latency-1:0] valid_q;
@@ -66,9 +67,10 @@ module rdx_ends #(
     assign points[axis] = '{ends_i.start[axis], ends_i.stop[axis]};
   end
   rdx_lanes #(
-      .Points (2),
-      .Lanes  (Lanes),
-      .General(General)
+      .Points(2),
+      .Lanes(Lanes),
+      .General(General),
+      .VectorDrop(VectorDrop)
   ) u_lanes (
       .clk_i,
       .rst_ni,

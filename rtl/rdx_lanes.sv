@@ -5,7 +5,7 @@
 // others wait for their phase. The values are collected, and all are there at the end.
 //
 // Formats    points_i: x, y, z of each point, s2p30. values_o: s5p33.
-// Timing     latency rdx_pkg::VecsumLatency + Phases - 1 clocks in which en_i = 1, one item every Phases clocks; phase_i
+// Timing     latency rdx_pkg::vecsum_latency + Phases - 1 clocks in which en_i = 1, one item every Phases clocks; phase_i
 //            counts them.
 // Reset      of waiting lines' places only.
 // Model      model/raydix/vecsum.py (evaluate)
@@ -15,6 +15,7 @@ module rdx_lanes #(
     parameter int unsigned Points = 7,
     parameter int unsigned Lanes = 7,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     localparam int unsigned Phases = rdx_pkg::phases(Points, Lanes),
     localparam type phase_t = logic [3:0]
 ) (
@@ -32,16 +33,17 @@ module rdx_lanes #(
     $fatal(1, "rdx_lanes: Lanes = %0d; allowed: 1 to Points = %0d, which is at most 15", Lanes, Points);
   end
 
-  // the phase of the item that leaves: of VecsumLatency clocks ago
+  // the phase of the item that leaves: of vecsum_latency(VectorDrop) clocks ago
   phase_t leaving_q;
-  always_ff @(posedge clk_i) if (en_i) leaving_q <= phase_before(phase_i, VecsumLatency - 1, Phases);
+  always_ff @(posedge clk_i) if (en_i) leaving_q <= phase_before(phase_i, vecsum_latency(VectorDrop) - 1, Phases);
 
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     localparam int unsigned Mine = (Points - l + Lanes - 1) / Lanes;  // points of this lane: l, l + Lanes, …
     coord_t  point [3];
     vector_t value;
     rdx_vecsum #(
-        .General(General)
+        .General(General),
+        .VectorDrop(VectorDrop)
     ) u_vecsum (
         .clk_i,
         .rst_ni,

@@ -48,8 +48,6 @@ package rdx_pkg;
   localparam int unsigned TurnFrac = 28;
   // of the CORDIC that finds radius and azimuth
   localparam int unsigned AngleIterations = 28;
-  // iteration of it from which on the radius stays as it is
-  localparam int unsigned AngleStill = 20;
   // of the CORDICs that find a length only
   localparam int unsigned LengthIterations = 16;
   // of the distance from the axis, each with bounds of its own
@@ -115,10 +113,26 @@ package rdx_pkg;
   localparam int unsigned QuarticLatency = 7;
 
   // Latencies of the vector-sum evaluator: nearest turn, distance from the tube, from a ball, and all of a lane.
+  // They depend on the digits that it leaves away: its CORDICs take fewer iterations then, a multiple of four.
   localparam int unsigned TurnLatency = 6;
-  localparam int unsigned TubeLatency = LengthIterations + 6;
-  localparam int unsigned BallLatency = 2 * LengthIterations + 4;
-  localparam int unsigned VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 6;
+  function automatic int unsigned angle_iterations(int unsigned vector_drop);
+    return AngleIterations - vector_drop;
+  endfunction
+  function automatic int unsigned angle_still(int unsigned vector_drop);
+    return vector_drop < 12 ? (VectorWidth - vector_drop) / 8 * 4 + 4 : angle_iterations(vector_drop);
+  endfunction
+  function automatic int unsigned length_iterations(int unsigned vector_drop);
+    return (2 * LengthIterations - vector_drop + 7) / 8 * 4;
+  endfunction
+  function automatic int unsigned tube_latency(int unsigned vector_drop);
+    return length_iterations(vector_drop) + 6;
+  endfunction
+  function automatic int unsigned ball_latency(int unsigned vector_drop);
+    return 2 * length_iterations(vector_drop) + 4;
+  endfunction
+  function automatic int unsigned vecsum_latency(int unsigned vector_drop);
+    return angle_iterations(vector_drop) + 1 + TurnLatency + tube_latency(vector_drop) + 6;
+  endfunction
 
   // Latency of rdx_bound: magnitudes and bounds, sums, comparisons.
   localparam int unsigned BoundLatency = 3;
@@ -137,9 +151,9 @@ package rdx_pkg;
 
   // Latency of the first part of a step: the cells. D = 1: coordinates, evaluator, bounds.
   function automatic int unsigned cells_latency(int unsigned n1, int unsigned d, int unsigned halve_stages,
-                                                int unsigned lanes);
+                                                int unsigned lanes, int unsigned vector_drop);
     if (d > 1) return n1 * halve_stages;
-    return n1 * halve_stages + VecsumLatency + phases((1 << n1) - 1, lanes) - 1 + BoundLatency;
+    return n1 * halve_stages + vecsum_latency(vector_drop) + phases((1 << n1) - 1, lanes) - 1 + BoundLatency;
   endfunction
 
   // Clocks in which a chosen cell is halved: as many as each of the cells takes, two rows of averages a clock at least.
@@ -164,9 +178,9 @@ package rdx_pkg;
 
   // Latency of rdx_step: cells, select, pick, settle.
   function automatic int unsigned step_latency(int unsigned n1, int unsigned d, int unsigned halve_stages,
-                                               int unsigned lanes, int unsigned rules);
-    return cells_latency(n1, d, halve_stages, lanes) + select_latency(n1, rules) + pick_latency(n1, d, halve_stages) +
-        SettleLatency;
+                                               int unsigned lanes, int unsigned vector_drop, int unsigned rules);
+    return cells_latency(n1, d, halve_stages, lanes, vector_drop) + select_latency(n1, rules) +
+        pick_latency(n1, d, halve_stages) + SettleLatency;
   endfunction
 
   // Largest shift of the step's normaliser, 2^b - 1: it covers a double root, which loses 2*n1 bits a step.

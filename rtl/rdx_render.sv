@@ -22,6 +22,7 @@ module rdx_render #(
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned VectorDrop = 0,
     parameter int unsigned Rings = 1,
     parameter int unsigned VectorRings = 1,
     parameter int unsigned Surfaces = 64,
@@ -104,6 +105,7 @@ module rdx_render #(
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),
+      .VectorDrop(VectorDrop),
       .Rings(Rings),
       .VectorRings(VectorRings),
       .Limit(Surfaces > 1)
@@ -129,7 +131,6 @@ module rdx_render #(
   );
   assign {events.beyond, events.rootless, events.hidden} = skipped;
   assign tap_valid_o = hit_valid && hit_ready;
-
   // ---- lines ----
   logic swept, begins, room, layer_valid, layer_whole;
   layer_t layer;
@@ -167,7 +168,6 @@ module rdx_render #(
       .whole_o(layer_whole)
   );
   assign events.visible = layer_valid && layer.shade;
-
   // ---- pixels ----
   rdx_finish #(
       .D(D),

@@ -29,6 +29,7 @@ module rdx_ring #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     parameter bit Limit = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
@@ -51,7 +52,7 @@ module rdx_ring #(
   localparam type control_t = `RDX_CONTROL_T(N1 * K);
   // Vector sums whose lanes evaluate an item in several clocks: an item every Phases clocks, others are bubbles.
   localparam int unsigned Phases = D == 1 ? phases((1 << N1) - 1, Lanes) : 1;
-  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
+  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, VectorDrop, Rules);
   localparam int unsigned Slots = (U * Latency + 3 + Phases - 1) / Phases;  // that can hold an item
   localparam int unsigned Pad = Slots * Phases - 3 - U * Latency;  // so that the ring holds a whole number of them
   if (U < 1 || U > K) begin : gen_illegal_u
@@ -76,7 +77,8 @@ module rdx_ring #(
         .Clip(Clip),
         .HalveStages(HalveStages),
         .Lanes(Lanes),
-        .General(General)
+        .General(General),
+        .VectorDrop(VectorDrop)
     ) u_step (
         .clk_i,
         .rst_ni,

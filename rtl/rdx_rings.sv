@@ -24,6 +24,7 @@ module rdx_rings #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     parameter bit Limit = 1'b0,
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
 ) (
@@ -101,6 +102,7 @@ module rdx_rings #(
         .HalveStages(HalveStages),
         .Lanes(Lanes),
         .General(General),
+        .VectorDrop(VectorDrop),
         .Limit(Limit)
     ) u_ring (
         .clk_i,

@@ -21,6 +21,7 @@ module rdx_sample #(
     parameter int unsigned K = 8,
     parameter int unsigned Lanes = 7,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     parameter int unsigned Wait = 1,
     localparam int unsigned J = 1 << N1,
     localparam type control_t = `RDX_CONTROL_T(N1 * K),
@@ -47,8 +48,8 @@ module rdx_sample #(
 
   localparam int unsigned Halving = N1;  // clocks: until the coordinates are there
   localparam int unsigned Phases = phases(J - 1, Lanes);
-  localparam int unsigned Evaluation = VecsumLatency + Phases - 1;
-  localparam int unsigned Latency = cells_latency(N1, 1, 1, Lanes);
+  localparam int unsigned Evaluation = vecsum_latency(VectorDrop) + Phases - 1;
+  localparam int unsigned Latency = cells_latency(N1, 1, 1, Lanes, VectorDrop);
   localparam int unsigned Moving = descend_stages(N1, 2);  // clocks of the ends that are over when b_o is there
 
   // ---- coordinates ----
@@ -100,9 +101,10 @@ module rdx_sample #(
   vector_t values[J+1], new_values[J-1], start, stop;
   logic [4:0] level_here;
   rdx_lanes #(
-      .Points (J - 1),
-      .Lanes  (Lanes),
-      .General(General)
+      .Points(J - 1),
+      .Lanes(Lanes),
+      .General(General),
+      .VectorDrop(VectorDrop)
   ) u_lanes (
       .clk_i,
       .rst_ni,
@@ -191,9 +193,7 @@ module rdx_sample #(
       .data_o(chosen_q)
   );
   assign b_o = {chosen_q[1], chosen_q[0]};
-
   wire unused_modes = &{1'b0, modes_i};
-
 endmodule
 
 `default_nettype wire

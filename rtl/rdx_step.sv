@@ -23,6 +23,7 @@ module rdx_step #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     localparam int unsigned N = N1 * K,
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
@@ -41,7 +42,7 @@ module rdx_step #(
   /*verilator no_inline_module*/  // U copies: compiled once, which halves the time of the build
   localparam int unsigned J = 1 << N1;
   localparam type cell_t = logic [N1-1:0];
-  localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes);
+  localparam int unsigned CellsLatency = cells_latency(N1, D, HalveStages, Lanes, VectorDrop);
   localparam int unsigned SelectLatency = select_latency(N1, Rules);
   localparam int unsigned PickLatency = pick_latency(N1, D, HalveStages);
   if (K < 1 || N > 32) begin : gen_illegal_k
@@ -53,7 +54,6 @@ module rdx_step #(
   if (D == 1 && (W != VectorWidth || HalveStages != 1)) begin : gen_illegal_d
     $fatal(1, "rdx_step: D = 1 with W = %0d, HalveStages = %0d; allowed: %0d, 1", W, HalveStages, VectorWidth);
   end
-
   // ---- cells: control points by halving, or the indicator at the boundaries by evaluating ----
   localparam bit Below = D > 1 && Rules == RuleCertified;  // signs are all that is needed of the cells
   logic signed [W+Below-1:0] cells[J*D+1];
@@ -109,6 +109,7 @@ module rdx_step #(
         .K(K),
         .Lanes(Lanes),
         .General(General),
+        .VectorDrop(VectorDrop),
         .Wait(SelectLatency)
     ) u_sample (
         .clk_i,
@@ -176,7 +177,6 @@ module rdx_step #(
     picked_q <= picked_d;
     dead_q   <= !was_found;
   end
-
   rdx_settle #(
       .N1(N1),
       .K(K),

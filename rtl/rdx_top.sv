@@ -21,6 +21,7 @@ module rdx_top #(
     parameter int unsigned Vecsum = rdx_pkg::VecsumNone,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter int unsigned VectorUnits = 1,
+    parameter int unsigned VectorDrop = 0,
     parameter int unsigned Rings = 1,
     parameter int unsigned VectorRings = 1,
     parameter int unsigned Surfaces = 64,
@@ -80,7 +81,6 @@ module rdx_top #(
   end
   always_ff @(posedge clk_i) if (start) frame_q <= next_frame;
   always_ff @(posedge clk_i) start_q <= start && rst_ni;
-
   logic table_req, table_we, table_ack;
   logic [13:0] table_addr;
   logic [31:0] table_data, table_read;
@@ -98,6 +98,7 @@ module rdx_top #(
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),
+      .VectorDrop(VectorDrop),
       .Rings(Rings),
       .VectorRings(VectorRings),
       .Surfaces(Surfaces),
@@ -128,7 +129,6 @@ module rdx_top #(
       .material_constant_o(material.constant),
       .material_data_o(material.data)
   );
-
   logic [ 6:0] place;
   logic [63:0] word;
   rdx_table #(
@@ -149,7 +149,6 @@ module rdx_top #(
       .host_ack_o(table_ack),
       .host_data_o(table_read)
   );
-
   rdx_render #(
       .N1(N1),
       .K(K),
@@ -162,6 +161,7 @@ module rdx_top #(
       .Vecsum(Vecsum),
       .Lanes(Lanes),
       .VectorUnits(VectorUnits),
+      .VectorDrop(VectorDrop),
       .Rings(Rings),
       .VectorRings(VectorRings),
       .Surfaces(Surfaces),
@@ -193,7 +193,6 @@ module rdx_top #(
       .tap_valid_o,
       .tap_o
   );
-
 endmodule
 
 `default_nettype wire

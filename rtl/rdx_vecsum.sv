@@ -6,16 +6,18 @@
 // at most half of 1.5 K times the distance from the axis, at least the guard less the whole of it (docs/spirals.md).
 //
 // Formats    point_i: x, y, z in s2p30, z carries K. value_o: K^2 times the indicator, s5p33; positive outside.
-//            form_i is constant while points are under way.
-// Rounding   that of the parts.    Overflow   cannot happen: compile scales the scene.
-// Timing     latency rdx_pkg::VecsumLatency clocks in which en_i = 1, one point a clock.
+//            form_i is constant while points are under way. VectorDrop, 0, 4, 8 or 12: the last digits of lengths and
+//            azimuths that are left away, and 0 in value_o; the evaluator is smaller, and rougher, for fewer digits of t.
+// Rounding   that of the parts, floor where digits are left away.    Overflow   cannot happen: compile scales the scene.
+// Timing     latency rdx_pkg::vecsum_latency clocks in which en_i = 1, one point a clock.
 // Reset      of the waiting lines' places only.
 // Error      docs/spirals.md, "Error of the evaluator"
 // Model      model/raydix/vecsum.py (evaluate)
 `default_nettype none
 
 module rdx_vecsum #(
-    parameter bit General = 1'b0
+    parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0
 ) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
@@ -27,29 +29,40 @@ module rdx_vecsum #(
   import rdx_pkg::*;
   /*verilator no_inline_module*/  // many copies: compiled once
 
+  if (VectorDrop > 12 || VectorDrop % 4 != 0) begin : gen_illegal_drop
+    $fatal(1, "rdx_vecsum: VectorDrop = %0d; allowed: 0, 4, 8, 12", VectorDrop);
+  end
+
   localparam int unsigned Parts = General ? 2 : 1;  // turns, and balls, that are looked at
-  localparam int unsigned ToTube = AngleIterations + 1 + TurnLatency;
+  localparam int unsigned Iterations = angle_iterations(VectorDrop);
+  localparam int unsigned ToTube = Iterations + 1 + TurnLatency;
+  localparam int unsigned V = VectorWidth - VectorDrop;
+  localparam type length_t = logic signed [V-1:0];
 
   // ---- radius and azimuth ----
-  vector_t rho;
+  vector_t x, y;
+  length_t rho;
   angle_t  angle;
   coord_t z, z_tube;
+  assign x = vector_t'(point_i[0]) <<< (VectorFrac - CoordFrac);
+  assign y = vector_t'(point_i[1]) <<< (VectorFrac - CoordFrac);
   rdx_cordic #(
-      .W(VectorWidth),
-      .Iterations(AngleIterations),
-      .Still(AngleStill),
-      .Angle(1'b1)
+      .W(V),
+      .Iterations(Iterations),
+      .Still(angle_still(VectorDrop)),
+      .Angle(1'b1),
+      .AngleDrop(VectorDrop)
   ) u_polar (
       .clk_i,
       .en_i,
-      .x_i(vector_t'(point_i[0]) <<< (VectorFrac - CoordFrac)),
-      .y_i(vector_t'(point_i[1]) <<< (VectorFrac - CoordFrac)),
+      .x_i(length_t'(x >>> VectorDrop)),
+      .y_i(length_t'(y >>> VectorDrop)),
       .x_o(rho),
       .angle_o(angle)
   );
   rdx_line #(
       .W(CoordWidth),
-      .Depth(AngleIterations + 1)
+      .Depth(Iterations + 1)
   ) u_z (
       .clk_i,
       .rst_ni,
@@ -61,21 +74,21 @@ module rdx_vecsum #(
   // ---- the nearest turn ----
   turn_t place[Parts];
   logic  none;
-  vector_t rho_tube, rho_end;
+  length_t rho_tube, rho_end;
   rdx_turn #(
       .General(General)
   ) u_turn (
       .clk_i,
       .en_i,
       .form_i,
-      .rho_i  (rho),
+      .rho_i  (vector_t'(rho) <<< VectorDrop),
       .z_i    (z),
       .angle_i(angle),
       .place_o(place),
       .none_o (none)
   );
   rdx_line #(
-      .W(VectorWidth + CoordWidth),
+      .W(V + CoordWidth),
       .Depth(TurnLatency)
   ) u_to_tube (
       .clk_i,
@@ -85,8 +98,8 @@ module rdx_vecsum #(
       .data_o({rho_tube, z_tube})
   );
   rdx_line #(
-      .W(VectorWidth),
-      .Depth(TubeLatency)
+      .W(V),
+      .Depth(tube_latency(VectorDrop))
   ) u_to_end (
       .clk_i,
       .rst_ni,
@@ -104,10 +117,11 @@ module rdx_vecsum #(
       upper_q <= point_i[2] >= form_i.split;
     end
   end
-  vector_t distance[2*Parts];
+  length_t distance[2*Parts];
   for (genvar i = 0; i < Parts; i++) begin : gen_part
     rdx_tube #(
-        .General(General)
+        .General(General),
+        .VectorDrop(VectorDrop)
     ) u_tube (
         .clk_i,
         .rst_ni,
@@ -119,9 +133,11 @@ module rdx_vecsum #(
         .none_i(none),
         .distance_o(distance[2*i])
     );
-    vector_t from_ball;
+    length_t from_ball;
     wire stop = General ? i == 1 : upper_q;
-    rdx_ball u_ball (
+    rdx_ball #(
+        .VectorDrop(VectorDrop)
+    ) u_ball (
         .clk_i,
         .rst_ni,
         .en_i,
@@ -132,8 +148,8 @@ module rdx_vecsum #(
         .distance_o(from_ball)
     );
     rdx_line #(
-        .W(VectorWidth),
-        .Depth(ToTube + TubeLatency - BallLatency - 1)
+        .W(V),
+        .Depth(ToTube + tube_latency(VectorDrop) - ball_latency(VectorDrop) - 1)
     ) u_from_ball (
         .clk_i,
         .rst_ni,
@@ -144,8 +160,8 @@ module rdx_vecsum #(
   end
 
   // ---- six clocks: the least distance, in two steps, its magnitude, its two limits, its sign ----
-  vector_t nearer_q[2], least_q, size_q, below_q, limited_q;
-  vector_t axis, axis_q[3], guard_q;
+  length_t nearer_q[2], least_q, size_q, below_q, limited_q, value_q;
+  length_t axis, axis_q[3], guard_q;
   logic [2:0] outside_q;
   assign axis = rho_end + (rho_end >>> 1);
   always_ff @(posedge clk_i) begin
@@ -159,12 +175,13 @@ module rdx_vecsum #(
       size_q <= least_q < 0 ? -least_q : least_q;
       axis_q[2] <= axis_q[1];
       below_q <= size_q < (axis_q[2] >>> 1) ? size_q : axis_q[2] >>> 1;
-      guard_q <= form_i.guard - axis_q[2];
+      guard_q <= length_t'(form_i.guard >>> VectorDrop) - axis_q[2];
       limited_q <= below_q < guard_q ? guard_q : below_q;
       outside_q <= {outside_q[1:0], least_q > 0};
-      value_o <= outside_q[2] ? limited_q : -limited_q;
+      value_q <= outside_q[2] ? limited_q : -limited_q;
     end
   end
+  assign value_o = vector_t'(value_q) <<< VectorDrop;
   if (!General) begin : gen_one_part
     assign nearer_q[1] = '0;
   end

@@ -16,6 +16,7 @@ module rdx_vector #(
     parameter int unsigned Rules = rdx_pkg::RuleBoth,
     parameter int unsigned Lanes = 7,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     parameter bit Limit = 1'b0  // items behind their ray's limit end
 ) (
     input  wire logic                  clk_i,
@@ -41,8 +42,9 @@ module rdx_vector #(
   ray_t     ray;
   segment_t segment;
   rdx_ends #(
-      .Lanes  (Lanes == 1 ? 1 : 2),
-      .General(General)
+      .Lanes(Lanes == 1 ? 1 : 2),
+      .General(General),
+      .VectorDrop(VectorDrop)
   ) u_ends (
       .clk_i,
       .rst_ni,
@@ -67,6 +69,7 @@ module rdx_vector #(
       .HalveStages(1),
       .Lanes(Lanes),
       .General(General),
+      .VectorDrop(VectorDrop),
       .Limit(Limit)
   ) u_rings (
       .clk_i,

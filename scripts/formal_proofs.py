@@ -218,8 +218,8 @@ STAND_INS = ("rdx_step", "rdx_vecsum", "rdx_quartic")
 # an evaluator of few clocks, so that the ring of vector sums is short
 SHORT = (
     "rdx_pkg",
-    "VecsumLatency = AngleIterations + 1 + TurnLatency + TubeLatency + 6;",
-    "VecsumLatency = 2;",
+    "return angle_iterations(vector_drop) + 1 + TurnLatency + tube_latency(vector_drop) + 6;",
+    "return 2;",
 )
 
 

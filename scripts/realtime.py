@@ -55,7 +55,8 @@ def point_config(point):
         n1=p.get("N1", 3), steps=p.get("K", 8), width=p.get("W", 36), degree=p.get("D", 4),
         units=p.get("U", 1), rings=p.get("Rings", 1), rules="certified", vecsum=VECSUMS[p.get("Vecsum", 0)],
         lanes=p.get("Lanes"),
-        vector_units=p.get("VectorUnits", 1), vector_rings=p.get("VectorRings", 1), surfaces=p["Surfaces"],
+        vector_units=p.get("VectorUnits", 1), vector_drop=p.get("VectorDrop", 0),
+        vector_rings=p.get("VectorRings", 1), surfaces=p["Surfaces"],
         clip=bool(p.get("Clip", 1)), halve_stages=p.get("HalveStages"), layers=p["Layers"],
         max_width=p["MaxWidth"], beat=p["Pixels"],
     )  # fmt: skip

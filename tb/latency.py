@@ -1,18 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
 """The latencies of ``rtl/rdx_pkg.sv``, in clocks."""
 
-from raydix.formats import ANGLE_ITERATIONS, LENGTH_ITERATIONS, SWIRL_ITERATIONS
+from raydix.formats import SWIRL_ITERATIONS
+from raydix.vecsum import iterations
 
 CERTIFIED = 1  # the mask of rules with which the paper rule is not built
 TURN = 6
-TUBE = LENGTH_ITERATIONS + 6
 QUARTIC = 7
 SETTLE = 3
-VECSUM = ANGLE_ITERATIONS + 1 + TURN + TUBE + 6
 BOUND = 3
 CONSTANT = 2
 SWIRL_SIDE, SWIRL_TURN, SWIRL_LEGS, SWIRL_SLOPE, SWIRL_CHORD, SWIRL_END, SWIRL_GRADIENT = 3, 6, 6, 3, 3, 13, 8
 SWIRL = SWIRL_ITERATIONS + 1 + SWIRL_TURN + SWIRL_END + 1 + SWIRL_GRADIENT
+
+
+def tube(drop):
+    """Of rdx_tube that leaves ``drop`` digits away."""
+    return iterations(drop)[2] + 6
+
+
+def ball(drop):
+    """Of rdx_ball."""
+    return 2 * iterations(drop)[2] + 4
+
+
+def vecsum(drop):
+    """Of rdx_vecsum."""
+    return iterations(drop)[0] + 1 + TURN + tube(drop) + 6
 
 
 def phases(points, lanes):
@@ -30,11 +44,11 @@ def select(n1, rules):
     return 3 if rules == CERTIFIED else 3 + (n1 + 2) // 2
 
 
-def cells(n1, degree, halve_stages, lanes):
-    """Of the first part of a step; degree 1: coordinates, evaluator, bounds."""
+def cells(n1, degree, halve_stages, lanes, drop=0):
+    """Of the first part of a step; degree 1: coordinates, evaluator that leaves ``drop`` digits away, bounds."""
     if degree > 1:
         return n1 * halve_stages
-    return n1 * halve_stages + VECSUM + phases((1 << n1) - 1, lanes) - 1 + BOUND
+    return n1 * halve_stages + vecsum(drop) + phases((1 << n1) - 1, lanes) - 1 + BOUND
 
 
 def follow(degree, halve_stages):
@@ -57,6 +71,6 @@ def moving(n1, moves=2):
     return -(-(n1 + 1) // moves)
 
 
-def step(n1, degree, halve_stages, lanes, rules):
+def step(n1, degree, halve_stages, lanes, rules, drop=0):
     """Of rdx_step."""
-    return cells(n1, degree, halve_stages, lanes) + select(n1, rules) + pick(n1, degree, halve_stages) + SETTLE
+    return cells(n1, degree, halve_stages, lanes, drop) + select(n1, rules) + pick(n1, degree, halve_stages) + SETTLE

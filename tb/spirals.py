@@ -64,10 +64,10 @@ def rays(found):
         next_row(state)
 
 
-def descent(item, first, constants, n1, steps, general):
+def descent(item, first, constants, n1, steps, general, drop):
     """The item at the start of each of its steps."""
-    work = new_work(n1, 1)
-    ends(first, new_lanes(2), constants, general)
+    work = new_work(n1, 1, drop)
+    ends(first, new_lanes(2, drop), constants, general)
     enter(item, first, 1)
     while True:
         while item[STATUS] == RUN:
@@ -81,13 +81,13 @@ def descent(item, first, constants, n1, steps, general):
         restart(item, first, 1)
 
 
-def items(random, found, n1, steps, general, count):
+def items(random, found, n1, steps, general, count, drop=0):
     """``count`` items at the start of steps of random rays."""
     choice = list(rays(found))
     constants = form(found)
     while True:
         _, _, item, first = random.choice(choice)
-        for copy in descent(item.copy(), first.copy(), constants, n1, steps, general):
+        for copy in descent(item.copy(), first.copy(), constants, n1, steps, general, drop):
             if not count:
                 return
             count -= 1

@@ -30,29 +30,29 @@ from raydix.cordic import ANGLES, gain, lengths, right_half, turned, vectoring
 from raydix.formats import ANGLE_WIDTH, LARGEST_ITERATIONS
 
 TURN = 1 << ANGLE_WIDTH
-TABLE = [abs(ANGLES[i] - math.atan(2.0**-i) / (2 * math.pi) * TURN) for i in range(LARGEST_ITERATIONS)]  # its errors
+EXACT = [math.atan(2.0**-i) / (2 * math.pi) * TURN for i in range(LARGEST_ITERATIONS)]
 FLOAT = 1e-4  # ulp: errors of float64 in what is compared here
 
 
 def parameters(dut):
-    """W, Iterations, Still, Angle."""
-    return [bench.parameter(dut, name) for name in ("W", "Iterations", "Still", "Angle")]
+    """W, Iterations, Still, Angle, AngleDrop."""
+    return [bench.parameter(dut, name) for name in ("W", "Iterations", "Still", "Angle", "AngleDrop")]
 
 
-def model(x, y, iterations, still, angle):
+def model(x, y, iterations, still, angle, drop=0):
     """K times the length, and the angle (0 without ``angle``), by the golden model."""
     xs, ys, angles = [x], [y], [0]
     if iterations % 4 == 0 and angle:
-        vectoring(xs, ys, angles, 1, iterations, still)
+        vectoring(xs, ys, angles, 1, iterations, still, drop)
     elif iterations % 4 == 0:
         lengths(xs, ys, 1, iterations)
     else:  # its loops go by fours
         if angle:
-            right_half(xs, ys, angles, 1)
+            right_half(xs, ys, angles, 1, drop)
         x, y, turns = abs(x), ys[0], angles[0]
         for i in range(iterations):
-            x, y, turns = turned(x, y, turns, i)
-        xs, angles = [x], [turns & (TURN - 1)]
+            x, y, turns = turned(x, y, turns, i, drop)
+        xs, angles = [x], [turns << drop & (TURN - 1)]
     return xs[0], angles[0] if angle else 0
 
 
@@ -63,7 +63,7 @@ def longest(width, iterations):
 
 def whole_disc(dut):
     """Every vector that is short enough."""
-    width, iterations, _, _ = parameters(dut)
+    width, iterations, *_ = parameters(dut)
     limit = longest(width, iterations)
     side = range(-int(limit), int(limit) + 1)
     return [(x, y) for x in side for y in side if math.hypot(x, y) <= limit]
@@ -81,7 +81,7 @@ def corners(limit):
 
 def wide(dut, count):
     """Corners, then random vectors: of any length, nearly of the largest, such as meet the axis after some turns."""
-    width, iterations, _, _ = parameters(dut)
+    width, iterations, *_ = parameters(dut)
     limit, random = longest(width, iterations), bench.rng()
     vectors = [*corners(limit)]
     for i in range(count):
@@ -95,10 +95,10 @@ def wide(dut, count):
 
 async def equal(dut, vectors, stall=0.0):
     """RTL and model on ``vectors``, at the latency that the module documents."""
-    _, iterations, still, angle = parameters(dut)
+    _, iterations, *others = parameters(dut)
 
     def expect(item):
-        return dict(zip(("x_o", "angle_o"), model(item["x_i"], item["y_i"], iterations, still, angle), strict=True))
+        return dict(zip(("x_o", "angle_o"), model(item["x_i"], item["y_i"], iterations, *others), strict=True))
 
     await bench.start(dut)
     await bench.pipeline(dut, ({"x_i": x, "y_i": y} for x, y in vectors), expect, iterations + 1, stall=stall)
@@ -122,29 +122,41 @@ async def stalls(dut):
     await equal(dut, wide(dut, 100)[-300:], 0.5)
 
 
-def bounds(size, iterations):
-    """How far x may lie below and above ``size``, K times the length, how far the angle may be off; all in ulp."""
+def table(drop):
+    """Errors of the angles that have ``drop`` digits fewer, in ulp of them."""
+    return [abs(((ANGLES[i] + (1 << drop >> 1)) >> drop) - EXACT[i] / (1 << drop)) for i in range(LARGEST_ITERATIONS)]
+
+
+def bounds(size, iterations, drop=0):
+    """How far x may lie below and above ``size``, K times the length, how far the angle may be off; all in ulp.
+
+    drop  digits that the angle has fewer: its ulp is 2^(drop-32) turns
+    """
     rounding = iterations - 1
     left = np.arctan(2.0**-rounding) + np.arcsin(np.minimum(0.5, rounding / np.maximum(size, 1)))
     left = np.where(size < 2 * rounding, np.pi, left)
-    return size * 2 * np.sin(left / 2) ** 2 + rounding, rounding, left / (2 * np.pi) * TURN + sum(TABLE[:iterations])
+    return (
+        size * 2 * np.sin(left / 2) ** 2 + rounding,
+        rounding,
+        left / (2 * np.pi) * (TURN >> drop) + sum(table(drop)[:iterations]),
+    )
 
 
-def errors(x, y, iterations, still, angle):
+def errors(x, y, iterations, still, angle, drop):
     """How far the model's x lies below and above K times the length, and by how much its angle is off. In ulp."""
-    length, turns = model(x, y, iterations, still, angle)
+    length, turns = model(x, y, iterations, still, angle, drop)
     above = length - float(gain(iterations)) * math.hypot(x, y)
     off = (turns - math.atan2(y, x) / (2 * math.pi) * TURN + TURN / 2) % TURN - TURN / 2
-    return -above, above, abs(off) if angle and (x or y) else 0.0
+    return -above, above, abs(off) / (1 << drop) if angle and (x or y) else 0.0
 
 
 def check_bounds(dut, vectors):
     """The model is within the bounds above on ``vectors``. At least a third of those of x and angle is needed."""
-    _, iterations, still, angle = parameters(dut)
+    _, iterations, still, angle, drop = parameters(dut)
     worst = [0.0] * 3
     for number, (x, y) in enumerate(vectors):
         size = float(gain(iterations)) * math.hypot(x, y)
-        allowed, found = bounds(size, iterations), errors(x, y, iterations, still, angle)
+        allowed, found = bounds(size, iterations, drop), errors(x, y, iterations, still, angle, drop)
         if any(f > a + FLOAT for f, a in zip(found, allowed, strict=True)):
             lines = [f"x below, x above, angle: off by {found}, allowed {allowed}"]
             raise bench.mismatch(number, {"x_i": x, "y_i": y}, lines)
@@ -173,12 +185,14 @@ WIDE = [
     dict(W=38, Iterations=28, Angle=1),
     dict(W=38, Iterations=16, Angle=0),
     dict(W=36, Iterations=32, Angle=1),
+    dict(W=26, Iterations=16, Angle=1, AngleDrop=12),
+    dict(W=30, Iterations=20, Still=16, Angle=1, AngleDrop=8),
 ]
 
 
 def test_table():
     """Each angle of the table is within half an ulp."""
-    assert max(TABLE) <= 0.5
+    assert max(table(0)) <= 0.5
 
 
 @pytest.mark.parametrize("parameters", SMALL, ids=bench.label)

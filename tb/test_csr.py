@@ -117,7 +117,8 @@ def parameters_of(dut):
     names = {
         "n1": "N1", "k": "K", "step_units": "U", "width": "W", "degree": "D", "vecsum": "Vecsum", "rules": "Rules",
         "clip": "Clip", "lanes": "Lanes", "vector_units": "VectorUnits", "rings": "Rings", "surfaces": "Surfaces",
-        "vector_rings": "VectorRings", "layers": "Layers", "max_width": "MaxWidth", "pixels": "Pixels",
+        "vector_rings": "VectorRings", "vector_drop": "VectorDrop", "layers": "Layers",
+        "max_width": "MaxWidth", "pixels": "Pixels",
     }  # fmt: skip
     return {field: bench.parameter(dut, name) for field, name in names.items()}
 
@@ -444,8 +445,8 @@ async def reset_empties(dut):
     "parameters",
     [
         {},
-        dict(N1=1, K=32, W=16, D=2, U=3, Rules=1, Clip=0, Vecsum=2, Lanes=1, VectorUnits=2, Rings=5, VectorRings=3,
-             Surfaces=5, Layers=1, MaxWidth=4096, Pixels=4),
+        dict(N1=1, K=32, W=16, D=2, U=3, Rules=1, Clip=0, Vecsum=2, Lanes=1, VectorUnits=2, VectorDrop=12, Rings=5,
+             VectorRings=3, Surfaces=5, Layers=1, MaxWidth=4096, Pixels=4),
     ],
     ids=("default", "other"),
 )  # fmt: skip

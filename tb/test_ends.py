@@ -41,9 +41,9 @@ def items(random, found, count):
         yield bench.RAY.unpack(random.getrandbits(bench.RAY.width)), segment
 
 
-def model(constants, general, segment):
+def model(constants, general, drop, segment):
     """The segment with its values."""
-    first, lanes = zeros(B + 2), new_lanes(2)
+    first, lanes = zeros(B + 2), new_lanes(2, drop)
     first[C : C + 6] = words(segment["start"] + segment["stop"])
     ends(first, lanes, constants, general)
     return segment | dict(b=first[B : B + 2].tolist())
@@ -63,13 +63,15 @@ async def start(dut, random):
 
 async def run(dut, random, found, idle, stall, count):
     """Random rays through the module, compared with the model; the sink."""
-    constants, general = spirals.form(found), bench.parameter(dut, "General")
+    constants, general, drop = spirals.form(found), bench.parameter(dut, "General"), bench.parameter(dut, "VectorDrop")
     given = list(items(random, found, count))
-    expected = [dict(ray_o=ray, segment_o=model(constants, general, segment)) for ray, segment in given]
+    expected = [dict(ray_o=ray, segment_o=model(constants, general, drop, segment)) for ray, segment in given]
     outputs = {"ray_o": bench.RAY, "segment_o": bench.segment(VECTOR_WIDTH, 1)}
     sink = streams_extra.sink(dut, random, stall, "ray_", outputs)
     cocotb.start_soon(streams.source(dut, given, random, idle, "ray_", PORTS, STRUCTS))
-    await with_timeout(cocotb.start_soon(sink.take(count, quiet=latency.VECSUM + 20)), 10 * 100 * (count + 100), "ns")
+    await with_timeout(
+        cocotb.start_soon(sink.take(count, quiet=latency.vecsum(drop) + 20)), 10 * 100 * (count + 100), "ns"
+    )
     streams_extra.compare(sink.port, expected, sink.received)
     return sink
 
@@ -83,7 +85,7 @@ async def equals_model(dut, idle, stall):
     if not idle and not stall:
         first, every = sink.transfers[0], phases(dut)
         assert sink.transfers == list(range(first, first + every * len(sink.received), every)), "a bubble"
-        documented = latency.VECSUM + every - 1
+        documented = latency.vecsum(bench.parameter(dut, "VectorDrop")) + every - 1
         assert documented <= first < documented + every, f"latency {first}, documented: {documented}"
 
 
@@ -97,7 +99,7 @@ async def reset_empties(dut):
     while dut.ray_valid_o.value == 0:
         await FallingEdge(dut.clk_i)
         clocks += 1
-        assert clocks < 2 * latency.VECSUM
+        assert clocks < 2 * latency.vecsum(bench.parameter(dut, "VectorDrop"))
     for _ in range(random.randint(0, 5)):
         await FallingEdge(dut.clk_i)
     task.cancel()
@@ -106,7 +108,7 @@ async def reset_empties(dut):
     await FallingEdge(dut.clk_i)
     dut.rst_ni.value = 1
     dut.ray_ready_i.value = 1
-    for _ in range(2 * latency.VECSUM):
+    for _ in range(2 * latency.vecsum(bench.parameter(dut, "VectorDrop"))):
         assert dut.ray_valid_o.value == 0
         await FallingEdge(dut.clk_i)
     for _ in range(12):  # in whatever phase it comes, the first ray is taken in the clock behind it
@@ -119,7 +121,12 @@ async def reset_empties(dut):
     await run(dut, random, found, 0.1, 0.2, 60)
 
 
-CASES = [dict(Lanes=2, General=0), dict(Lanes=1, General=1), dict(Lanes=2, General=1)]
+CASES = [
+    dict(Lanes=2, General=0),
+    dict(Lanes=1, General=1),
+    dict(Lanes=2, General=1),
+    dict(Lanes=1, General=0, VectorDrop=12),
+]
 
 
 @pytest.mark.parametrize("parameters", CASES, ids=bench.label)

@@ -13,11 +13,11 @@ from test_vecsum import MOST, forms, model, points, with_forms
 
 @cocotb.test
 async def equals_model(dut):
-    """Every bit of all values is the model's, VecsumLatency + Phases - 1 clocks after phase 0."""
+    """Every bit of all values is the model's, vecsum_latency + Phases - 1 clocks after phase 0."""
     random = bench.rng()
-    count, lanes, general = (bench.parameter(dut, name) for name in ("Points", "Lanes", "General"))
+    count, lanes, general, drop = (bench.parameter(dut, n) for n in ("Points", "Lanes", "General", "VectorDrop"))
     phases = latency.phases(count, lanes)
-    clocks = latency.VECSUM + phases - 1
+    clocks = latency.vecsum(drop) + phases - 1
     sent = deque()
 
     def items(form):
@@ -30,7 +30,7 @@ async def equals_model(dut):
 
     def expect(form, _):
         item = sent.popleft()
-        return {"values_o": [int(v) for v in model(form, item, general)[0]] if item else [None] * count}
+        return {"values_o": [int(v) for v in model(form, item, general, drop)[0]] if item else [None] * count}
 
     await with_forms(dut, forms(random, general, 2), items, expect, clocks)
 
@@ -46,5 +46,5 @@ def test_lanes(points_and_lanes):
 
 
 def test_lanes_of_the_general_evaluator():
-    """The evaluator of every spiral gets its parameter."""
-    bench.run(__name__, "rdx_lanes", dict(Points=3, Lanes=2, General=1))
+    """The evaluator of every spiral gets its parameters."""
+    bench.run(__name__, "rdx_lanes", dict(Points=3, Lanes=2, General=1, VectorDrop=8))

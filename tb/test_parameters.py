@@ -46,6 +46,7 @@ CASES = [
     ("rdx_product", dict(D=3), "D = 3; allowed: 2 (quadrics) or 4 (quartics too)"),
     ("rdx_core", dict(Vecsum=3), "Vecsum = 3; allowed: 0 none (where D > 0), 1 helix, 2 general"),
     ("rdx_core", dict(D=0), "Vecsum = 0; allowed: 0 none (where D > 0), 1 helix, 2 general"),
+    ("rdx_vecsum", dict(VectorDrop=6), "VectorDrop = 6; allowed: 0, 4, 8, 12"),
     ("rdx_lanes", dict(Lanes=0), "Lanes = 0; allowed: 1 to Points = 7, which is at most 15"),
     ("rdx_lanes", dict(Lanes=8), "Lanes = 8; allowed: 1 to Points = 7, which is at most 15"),
     ("rdx_lanes", dict(Points=16), "Lanes = 7; allowed: 1 to Points = 16, which is at most 15"),

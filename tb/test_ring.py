@@ -36,7 +36,8 @@ class Shape:
         self.phases = latency.phases((1 << self.n1) - 1, value("Lanes")) if self.degree == 1 else 1
         self.slots = value("Slots")
         self.turn = self.slots * self.phases  # clocks
-        self.work = new_work(self.n1, self.degree)
+        self.drop = bench.parameter(dut, "VectorDrop") if self.degree == 1 else 0
+        self.work = new_work(self.n1, self.degree, self.drop)
         self.form, self.surface = None, None
         self.records = {}  # of rays seen
         if self.degree == 1:
@@ -109,7 +110,7 @@ def random_chord(random, shape):
         first[C : C + 3], first[C + 3 : C + 6] = first[C + 3 : C + 6].copy(), first[C : C + 3].copy()
     elif kind < 0.5:
         first[C + 3 : C + 6] = words(int(first[C + i] + part * (first[C + 3 + i] - first[C + i])) for i in range(3))
-    ends(first, new_lanes(2), shape.form, shape.general)
+    ends(first, new_lanes(2, shape.drop), shape.form, shape.general)
     return segment_of(first, 1)
 
 
@@ -474,7 +475,7 @@ def test_ring(parameters):
 
 VECTOR_CASES = [
     pytest.param(dict(N1=3, K=8, U=1, Rules=BOTH, Lanes=7, General=0, Limit=1), marks=pytest.mark.long),
-    dict(N1=2, K=5, U=2, Rules=CERTIFIED, Lanes=1, General=1, Limit=1),
+    dict(N1=2, K=5, U=2, Rules=CERTIFIED, Lanes=1, General=1, VectorDrop=8, Limit=1),
     pytest.param(dict(N1=3, K=4, U=2, Rules=PAPER_RULE, Lanes=3, General=0), marks=pytest.mark.long),
 ]
 

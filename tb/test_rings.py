@@ -15,10 +15,10 @@ class Rings(ring.Shape):
     """Parameters of the rings within; ``slots`` are those of all of them."""
 
     def __init__(self, dut, random):
-        values = (bench.parameter(dut, name) for name in ("N1", "D", "U", "Rules", "HalveStages", "Lanes"))
-        n1, degree, units, rules, stages, lanes = values
+        names = ("N1", "D", "U", "Rules", "HalveStages", "Lanes", "VectorDrop")
+        n1, degree, units, rules, stages, lanes, drop = (bench.parameter(dut, name) for name in names)
         phases = latency.phases((1 << n1) - 1, lanes) if degree == 1 else 1
-        slots = -(-(units * latency.step(n1, degree, stages, lanes, rules) + 3) // phases)
+        slots = -(-(units * latency.step(n1, degree, stages, lanes, rules, drop) + 3) // phases)
         super().__init__(dut, random, Slots=slots)
         self.rings = bench.parameter(dut, "Rings")
 
@@ -87,7 +87,7 @@ CASES = [
     dict(N1=3, K=4, W=36, D=2, U=1, Rings=4, Rules=ring.CERTIFIED, Limit=1),
     dict(N1=2, K=5, W=24, D=4, U=2, Rings=3, Rules=ring.BOTH),
     dict(N1=1, K=6, W=36, D=2, U=6, Rings=1, Rules=ring.CERTIFIED),
-    dict(N1=1, K=6, **VECTOR, Rules=ring.CERTIFIED, HalveStages=1, Lanes=1, General=0, Limit=1),
+    dict(N1=1, K=6, **VECTOR, Rules=ring.CERTIFIED, HalveStages=1, Lanes=1, General=0, VectorDrop=12, Limit=1),
 ]
 
 

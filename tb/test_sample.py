@@ -18,15 +18,15 @@ from test_step import fields_of, item_of, made_up
 
 
 def shape(dut):
-    """N1, K, General, Lanes, Wait."""
-    return [bench.parameter(dut, name) for name in ("N1", "K", "General", "Lanes", "Wait")]
+    """N1, K, General, Lanes, Wait, VectorDrop."""
+    return [bench.parameter(dut, name) for name in ("N1", "K", "General", "Lanes", "Wait", "VectorDrop")]
 
 
 def stimuli(dut, random, found, count):
     """Items at the start of steps, some with any segment and level, and the cell that will be chosen."""
-    n1, steps, general, *_ = shape(dut)
+    n1, steps, general, *_, drop = shape(dut)
     constants = bench.form_fields(spirals.form(found))
-    for item in spirals.items(random, found, n1, steps, general, count):
+    for item in spirals.items(random, found, n1, steps, general, count, drop):
         control, segment = fields_of(item, 1)
         if random.random() < 0.3:
             control["level"] = random.randrange(steps)
@@ -37,8 +37,8 @@ def stimuli(dut, random, found, count):
 
 def model(dut, found, item):
     """Values at the boundaries, masks of the cells outside and of those that may hold a root, chosen cell."""
-    n1, _, general, *_ = shape(dut)
-    form, work, state = spirals.form(found), new_work(n1, 1), item_of(item["control_i"], item["segment_i"])
+    n1, _, general, *_, drop = shape(dut)
+    form, work, state = spirals.form(found), new_work(n1, 1, drop), item_of(item["control_i"], item["segment_i"])
     outside = outside_faces(state, work.cells, form, n1)
     zone = boundaries(state, work, form, n1, general)
     values, may = [int(v) for v in work.cells], 0
@@ -59,12 +59,12 @@ async def equals_model(dut):
 
     possible_o says nothing about a cell in which the sign changes.
     """
-    n1, steps, general, lanes, wait = shape(dut)
+    n1, steps, general, lanes, wait, drop = shape(dut)
     control, segment = bench.control(n1 * steps), bench.segment(VECTOR_WIDTH, 1)
     structs = dict(control_i=control, control_o=control, segment_i=segment)
     structs |= dict(b_o=bench.Struct(("b", -VECTOR_WIDTH, 2)), point_o=POINT, ends_o=bench.ENDS)
     random, every = bench.rng(), latency.phases((1 << n1) - 1, lanes)
-    clocks = latency.cells(n1, 1, 1, lanes)
+    clocks = latency.cells(n1, 1, 1, lanes, drop)
     await bench.start(dut)
     masks = bench.Port(dut, "possible_o")
 
@@ -94,6 +94,7 @@ SETS = [
     dict(N1=3, K=8, Lanes=7, General=0, Wait=1),
     dict(N1=2, K=5, Lanes=2, General=1, Wait=4),
     dict(N1=1, K=32, Lanes=1, General=1, Wait=3),
+    dict(N1=1, K=13, Lanes=1, General=0, Wait=3, VectorDrop=12),
 ]
 
 

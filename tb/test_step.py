@@ -82,6 +82,11 @@ def fields_of(item, degree):
     return control, segment
 
 
+def drop_of(dut):
+    """Digits that the evaluator of vector sums leaves away."""
+    return bench.parameter(dut, "VectorDrop")
+
+
 def model(dut, control, segment, form=None):
     """Control and segment after the model's step, with the rule that the design has."""
     n1, steps, width, degree, rules = shape(dut)
@@ -90,7 +95,7 @@ def model(dut, control, segment, form=None):
     item = item_of(control, segment)
     item[PAPER] = {CERTIFIED_ONLY: 0, PAPER_ONLY: 1, BOTH: control["paper"]}[rules]
     general = degree == 1 and bench.parameter(dut, "General")
-    step(item, form, new_work(n1, degree), n1, steps, width, degree, general)
+    step(item, form, new_work(n1, degree, drop_of(dut)), n1, steps, width, degree, general)
     after, moved = fields_of(item, degree)
     return after | dict(paper=control["paper"]), moved
 
@@ -170,7 +175,9 @@ def stimuli(dut, count):
 def latency_of(dut):
     """Clocks of a step."""
     n1, _, _, degree, rules = shape(dut)
-    return latency.step(n1, degree, bench.parameter(dut, "HalveStages"), bench.parameter(dut, "Lanes"), rules)
+    return latency.step(
+        n1, degree, bench.parameter(dut, "HalveStages"), bench.parameter(dut, "Lanes"), rules, drop_of(dut)
+    )
 
 
 def expected(dut, kinds, seen, item, form=None):
@@ -368,11 +375,11 @@ async def vector_sums_equal_model(dut):
 async def indicator_is_that_at_the_ends(dut):
     """The values that the model's item carries from step to step are the evaluator's at its ends."""
     n1, steps, _, degree, _ = shape(dut)
-    general, lanes, random = bench.parameter(dut, "General"), new_lanes(2), bench.rng()
+    general, lanes, random = bench.parameter(dut, "General"), new_lanes(2, drop_of(dut)), bench.rng()
     hits = 0
     for found in surfaces(dut):
         constants = spirals.form(found)
-        for number, item in enumerate(spirals.items(random, found, n1, steps, general, 300)):
+        for number, item in enumerate(spirals.items(random, found, n1, steps, general, 300, drop_of(dut))):
             control, segment = fields_of(item, degree)
             after, moved = model(dut, control, segment, constants)
             copy = item_of(after, moved)
@@ -405,6 +412,7 @@ def test_step(parameters):
 VECTOR_SETS = [
     dict(N1=1, K=32, Lanes=1, General=0, Rules=BOTH),
     dict(N1=2, K=5, Lanes=1, General=1, Rules=CERTIFIED_ONLY),
+    dict(N1=1, K=13, Lanes=1, General=0, Rules=CERTIFIED_ONLY, VectorDrop=12),
     dict(N1=3, K=8, Lanes=7, General=0, Rules=BOTH),
     pytest.param(dict(N1=3, K=8, Lanes=3, General=1, Rules=BOTH), marks=pytest.mark.long),
     pytest.param(dict(N1=4, K=8, Lanes=4, General=1, Rules=PAPER_ONLY), marks=pytest.mark.long),

@@ -7,20 +7,20 @@ import pytest
 import bench
 import latency
 from raydix.cordic import vectoring
-from raydix.formats import ANGLE_ITERATIONS, ANGLE_STILL, ANGLE_WIDTH, FORM_INDEX, TURN_FRAC
+from raydix.formats import ANGLE_WIDTH, FORM_INDEX, TURN_FRAC
 from raydix.multiply import scaled
 from raydix.turn import RHO_DROP, TURN_DROP, Z_UP, nearest
-from raydix.vecsum import UP
+from raydix.vecsum import UP, iterations
 from test_vecsum import forms, points, with_forms
 
 TURN = 1 << TURN_FRAC
 FINE = ANGLE_WIDTH - TURN_FRAC  # an azimuth has so many more bits than a place
 
 
-def polar(point):
-    """Radius, height and azimuth of a point, as the evaluator has them."""
-    x, y, angle = [point[0] << UP], [point[1] << UP], [0]
-    vectoring(x, y, angle, 1, ANGLE_ITERATIONS, ANGLE_STILL)
+def polar(point, drop=0):
+    """Radius, height and azimuth of a point, as the evaluator has them that leaves ``drop`` digits away."""
+    x, y, angle = [point[0] << UP >> drop], [point[1] << UP >> drop], [0]
+    vectoring(x, y, angle, 1, *iterations(drop)[:2], drop)
     return x[0], point[2], angle[0]
 
 

@@ -26,7 +26,7 @@ from raydix.core import FORM_AT
 from raydix.files import ROOT
 from raydix.kernel import words
 from raydix.scene import Spiral, load_scene
-from raydix.vecsum import evaluate, new_lanes
+from raydix.vecsum import DROPS, evaluate, iterations, new_lanes
 from test_cordic import bounds
 
 SCENES = ("spiral", "shell", "flat_spiral")
@@ -145,10 +145,10 @@ async def with_forms(dut, all_forms, inputs, expect, clocks):
 # ---------------------------------------------------------------- inside of the simulator
 
 
-def model(form, all_points, general):
+def model(form, all_points, general, drop=0):
     """Indicator at points by the golden model; the radius, too."""
     count = len(all_points)
-    lanes = new_lanes(count)
+    lanes = new_lanes(count, drop)
     for lane, values in zip((lanes.x, lanes.y, lanes.z), zip(*all_points, strict=True), strict=True):
         lane[:] = words(values)
     evaluate(lanes, count, form.words, int(general))
@@ -157,14 +157,14 @@ def model(form, all_points, general):
 
 @cocotb.test
 async def equals_model(dut):
-    """Every bit of the indicator is the model's, VecsumLatency clocks in which en_i = 1 later."""
-    dice, general = bench.rng(), bench.parameter(dut, "General")
+    """Every bit of the indicator is the model's, vecsum_latency clocks in which en_i = 1 later."""
+    dice, general, drop = bench.rng(), bench.parameter(dut, "General"), bench.parameter(dut, "VectorDrop")
     await with_forms(
         dut,
         forms(dice, general, 20),
         lambda form: ({"point_i": point} for point in points(dice, form, 100)),
-        lambda form, item: {"value_o": int(model(form, [item["point_i"]], general)[0][0])},
-        latency.VECSUM,
+        lambda form, item: {"value_o": int(model(form, [item["point_i"]], general, drop)[0][0])},
+        latency.vecsum(drop),
     )
 
 
@@ -174,15 +174,15 @@ async def on_the_surface(dut):
 
     No spiral has a guard above 0 there, so it is raised until it is in force.
     """
-    dice, general = bench.rng(), bench.parameter(dut, "General")
+    dice, general, drop = bench.rng(), bench.parameter(dut, "General"), bench.parameter(dut, "VectorDrop")
     found, points_of = [], {}
     for form in forms(dice, general, 12):
         near = [beside(dice, form) for _ in range(300)]
-        zero = [point for point, value in zip(near, model(form, near, general)[0], strict=True) if value == 0]
+        zero = [point for point, value in zip(near, model(form, near, general, drop)[0], strict=True) if value == 0]
         raised = form._replace(words=form.words.copy())
         raised.words[formats.FORM_INDEX["guard"]] = bench.high(formats.VECTOR_WIDTH)
         if zero:
-            assert (model(raised, zero, general)[0] < 0).all()
+            assert (model(raised, zero, general, drop)[0] < 0).all()
             found.append(raised)
             points_of[id(raised)] = zero
     assert sum(map(len, points_of.values())) >= 5
@@ -190,14 +190,17 @@ async def on_the_surface(dut):
         dut,
         found,
         lambda form: ({"point_i": point} for point in points_of[id(form)]),
-        lambda form, item: {"value_o": int(model(form, [item["point_i"]], general)[0][0])},
-        latency.VECSUM,
+        lambda form, item: {"value_o": int(model(form, [item["point_i"]], general, drop)[0][0])},
+        latency.vecsum(drop),
     )
 
 
-@pytest.mark.parametrize("parameters", [dict(General=0), dict(General=1)], ids=bench.label)
+INDICATORS = [dict(General=g, VectorDrop=d) for g, d in ((0, 0), (1, 0), (0, 12), (1, 8), (0, 4))]
+
+
+@pytest.mark.parametrize("parameters", INDICATORS, ids=bench.label)
 def test_indicator(parameters):
-    """The evaluator of helices, and that of every spiral."""
+    """The evaluator of helices, and that of every spiral; with all digits, and fewer."""
     bench.run(__name__, "rdx_vecsum", parameters)
 
 
@@ -211,10 +214,12 @@ class Exact(NamedTuple):
     allowed: np.ndarray  # how far the model's may be off
 
 
-def definition(form, all_points, rho, general):
+def definition(form, all_points, rho, general, drop):
     """The distance by its definition, and a bound of the model's error, derived here.
 
-    All in ulp of a length, 2^-33.
+    All in ulp of a length, 2^-33. ``step`` is 2^drop, the ulp of the CORDICs' lengths. Where digits are left away each
+    floor takes up to a step: of x and y before the radius, which turns the azimuth, too, of the radius of the centre
+    curve, of the height, of the tube's radius, of the three legs to the centre of a ball and of the ball's radius.
     place   the azimuth: what the CORDIC's angle is off, and its 28 digits; in units of 2^-28 turns, of 32 ulp times the
             length of a turn and the tube's growth in it
     radius  of the point: the CORDIC; of the centre curve: half an ulp of ``radius``, half an ulp of ``radius_growth``
@@ -235,16 +240,23 @@ def definition(form, all_points, rho, general):
     def product(growth):
         return (4 * shape.turns + 1) * (growth != 0)
 
+    step = 1 << drop
+    less = step if drop else 0  # what a floor takes at most
+    around, _, along = iterations(drop)
     longest = np.abs(value) + (shape.r + max(0, shape.r_growth * shape.turns)) * across * gain_length / ULP
-    length_error = bounds(longest, formats.LENGTH_ITERATIONS)[0]
-    radius_error, _, angle_error = bounds(np.asarray(rho, float), formats.ANGLE_ITERATIONS)
+    length_error = bounds(longest / step, along)[0] * step
+    radius_error, _, angle_error = bounds(np.asarray(rho, float) / step, around, drop)
+    radius_error, angle_error = radius_error * step + 2 * gain_angle * less, angle_error * step
+    turned = np.arcsin(np.minimum(1, 1.5 * gain_angle * less / np.maximum(rho, 1))) / (2 * np.pi)
+    angle_error += turned * (1 << formats.ANGLE_WIDTH)
     units = 1 + angle_error / (1 << (formats.ANGLE_WIDTH - formats.TURN_FRAC))
     turn = (math.hypot(shape.pitch, shape.R_growth) + abs(shape.r_growth)) * across
-    radius, height = radius_error + 0.5 + product(shape.R_growth), 0.5 + product(shape.pitch)
+    radius = radius_error + 0.5 + product(shape.R_growth) + less
+    height = 0.5 + product(shape.pitch) + less
     moved = np.hypot(radius, height) + 32 * turn * units
-    tube = gain_length * moved + length_error + 0.5 + product(shape.r_growth)
-    plane = gain_length * math.hypot(4, 4) + length_error + longest * (gain_angle / gain_length - 1)
-    ball = gain_length * np.hypot(plane, 4) + length_error + 0.5
+    tube = gain_length * moved + length_error + 0.5 + product(shape.r_growth) + less
+    plane = gain_length * math.hypot(4 + less, 4 + less) + length_error + longest * (gain_angle / gain_length - 1)
+    ball = gain_length * np.hypot(plane, 4 + less) + length_error + 0.5 + less
     allowed = np.maximum(tube, ball)
     if shape.pitch and not general:
         azimuth = np.arctan2(place[:, 1], place[:, 0]) / (2 * np.pi)
@@ -253,8 +265,9 @@ def definition(form, all_points, rho, general):
     return Exact(value, allowed)
 
 
+@pytest.mark.parametrize("drop", DROPS)
 @pytest.mark.parametrize("general", [False, True], ids=["helices", "general"])
-def test_error(general):
+def test_error(general, drop):
     """Where no limit is active the indicator is within its bound of the distance; elsewhere its sign is the distance's.
 
     Wherever the bound leaves no doubt about the sign, and everywhere about the axis. The worst is 0.96 of the bound
@@ -264,10 +277,11 @@ def test_error(general):
     worst, count = [], 0
     for form in forms(dice, general, 40):
         everywhere = points(dice, form, 1000)
-        got, rho = (np.asarray(v, float) for v in model(form, everywhere, general))
-        exact = definition(form, everywhere, rho, general)
+        got, rho = (np.asarray(v, float) for v in model(form, everywhere, general, drop))
+        rho *= 1 << drop
+        exact = definition(form, everywhere, rho, general, drop)
         guard = float(form.words[formats.FORM_INDEX["guard"]]) - 1.5 * rho
-        free = (np.abs(got) < 0.75 * rho - 2) & (np.abs(got) > guard + 2)
+        free = (np.abs(got) < 0.75 * rho - (2 << drop)) & (np.abs(got) > guard + (2 << drop))
         parts = np.where(free, np.abs(got - exact.value) / exact.allowed, 0)
         sure = np.abs(exact.value) > exact.allowed
         wrong = np.where(sure, (got > 0) != (exact.value > 0), (guard > exact.allowed) & (got <= 0))

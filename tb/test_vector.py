@@ -18,7 +18,7 @@ class Vector(ring.Shape):
     def __init__(self, dut, random):
         n1, lanes = bench.parameter(dut, "N1"), bench.parameter(dut, "Lanes")
         units, rules = bench.parameter(dut, "U"), bench.parameter(dut, "Rules")
-        clocks = units * latency.step(n1, 1, 1, lanes, rules) + 2
+        clocks = units * latency.step(n1, 1, 1, lanes, rules, bench.parameter(dut, "VectorDrop")) + 2
         slots = -(-clocks // latency.phases((1 << n1) - 1, lanes))
         super().__init__(dut, random, W=VECTOR_WIDTH, D=1, Slots=slots)
 
@@ -100,7 +100,7 @@ async def reset_makes_idle(dut):
 
 
 CASES = [
-    dict(N1=2, K=5, U=2, Rules=ring.BOTH, Lanes=2, General=1, Limit=1),
+    dict(N1=2, K=5, U=2, Rules=ring.BOTH, Lanes=2, General=1, VectorDrop=4, Limit=1),
     pytest.param(dict(N1=1, K=12, U=1, Rules=1, Lanes=1, General=0), marks=pytest.mark.long),
 ]
 

@@ -89,7 +89,8 @@ def _described(config: Config) -> str:
         parts.append(f"W = {config.width}, D = {config.degree}, {_units(config.rings, config.units)}")
     if config.vecsum != "none":
         units = _units(config.vector_rings, config.vector_units)
-        parts.append(f"vector sums: {config.vecsum}, lanes = {config.lanes}, {units}")
+        fewer = f", {config.vector_drop} digits left away" if config.vector_drop else ""
+        parts.append(f"vector sums: {config.vecsum}, lanes = {config.lanes}, {units}{fewer}")
     return "; ".join(parts)
 
 
@@ -211,7 +212,8 @@ def _configure(args: argparse.Namespace) -> int:
         "Vecsum": {"none": "no spiral", "helix": "helices only", "general": "spirals that grow, or parts of a turn"}[
             config.vecsum
         ],
-        "Lanes": "asked for, or J - 1", "VectorUnits": "asked for", "Rings": "asked for", "VectorRings": "asked for",
+        "Lanes": "asked for, or J - 1", "VectorUnits": "asked for", "VectorDrop": "asked for", "Rings": "asked for",
+        "VectorRings": "asked for",
         "Surfaces": "surfaces of the scene",
         "Layers": "all surfaces are opaque" if opaque else "roots of the transparent surfaces, and one",
         "MaxWidth": "columns of the picture", "Pixels": "asked for",

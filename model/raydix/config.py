@@ -28,6 +28,7 @@ class Config:
     lanes  evaluators in a step unit of the vector-sum ring, 1 to J-1; they share the J-1 new boundaries of a step
     vector_units  step units in each vector-sum ring, 1 to K
     vector_rings  vector-sum rings side by side; vector_rings*vector_units is at most 32
+    vector_drop   binary digits that the vector-sum evaluators leave away, 0, 4, 8 or 12: smaller, for fewer digits of t
     clip   whether boxes can cut algebraic surfaces
     halve_stages  clocks in which a cell is halved, 0 to 4: fewer take fewer registers and a slower clock, and change no
            value; two rows of averages a clock if not given
@@ -52,6 +53,7 @@ class Config:
     vector_units: int = 1
     rings: int = 1
     vector_rings: int = 1
+    vector_drop: int = 0
     clip: bool = True
     halve_stages: int = None  # type: ignore[assignment]  # (degree + 1) // 2 once it is made
     surfaces: int = 64
@@ -74,6 +76,7 @@ class Config:
             "vector_units",
             "rings",
             "vector_rings",
+            "vector_drop",
             "surfaces",
             "layers",
             "max_width",
@@ -99,6 +102,7 @@ class Config:
             check(1 <= getattr(self, name) <= self.steps, name, f"1 to {self.steps} (the number of steps)")
         for name, units in (("rings", self.units), ("vector_rings", self.vector_units)):
             check(1 <= getattr(self, name) <= 32 // units, name, f"1 to {32 // units} (32 step units in all)")
+        check(self.vector_drop in (0, 4, 8, 12), "vector_drop", "0, 4, 8 or 12")
         check(1 <= self.surfaces <= 64, "surfaces", "1 to 64")
         check(1 <= self.layers <= 8, "layers", "1 to 8")
         check(self.beat in (1, 2, 4), "beat", "1, 2 or 4")

@@ -71,5 +71,5 @@ def scratch(config: Config, degree: int):
         zeros(SIZE),
         zeros(SIZE),
         zeros(9),
-        new_work(config.n1, degree),
+        new_work(config.n1, degree, config.vector_drop),
     )

@@ -54,7 +54,6 @@ ANGLE_WIDTH = 32
 TURN_FRAC = 28
 TURN_WIDTH = 8 + TURN_FRAC
 ANGLE_ITERATIONS = 28
-ANGLE_STILL = 20
 LENGTH_ITERATIONS = 16
 ZONES = 16
 UNIT_FRAC = 16
@@ -188,7 +187,6 @@ TABLE = (
     Constant("TurnWidth", TURN_WIDTH, "s8p28", "place on a spiral, in turns from its start"),
     Constant("TurnFrac", TURN_FRAC, "", "fractional bits of such a place"),
     Constant("AngleIterations", ANGLE_ITERATIONS, "", "of the CORDIC that finds radius and azimuth"),
-    Constant("AngleStill", ANGLE_STILL, "", "iteration of it from which on the radius stays as it is"),
     Constant("LengthIterations", LENGTH_ITERATIONS, "", "of the CORDICs that find a length only"),
     Constant("HeaderWords", HEADER_WORDS, "", "64-bit words before the lanes in a surface descriptor", False),
     Constant("Zones", ZONES, "", "of the distance from the axis, each with bounds of its own"),

@@ -30,6 +30,13 @@ def add_scene_options(parser: argparse.ArgumentParser) -> list[argparse.Action]:
         add(
             "--vector-units", type=INTEGER, default=1, metavar="U", help="step units in a vector-sum ring (default: 1)"
         ),
+        add(
+            "--vector-drop",
+            type=INTEGER,
+            default=0,
+            metavar="N",
+            help="digits that its evaluators leave away (default: 0)",
+        ),
         add("--vector-rings", type=INTEGER, default=1, metavar="N", help="vector-sum rings (default: 1)"),
         add("--beat", type=INTEGER, default=1, metavar="P", help="pixels in a beat of the RTL (default: 1)"),
         add("--size", type=image_size, metavar="WxH", help="image size instead of the scene's"),
@@ -60,6 +67,7 @@ def config_of(args: argparse.Namespace, scene: Scene) -> Config:
         rule=args.rule,
         lanes=args.lanes,
         vector_units=args.vector_units,
+        vector_drop=args.vector_drop,
         rings=args.rings,
         halve_stages=args.halve_stages,
         vector_rings=args.vector_rings,

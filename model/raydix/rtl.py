@@ -77,6 +77,7 @@ def parameters(config: Config) -> dict[str, int]:
         "Vecsum": VECSUMS[config.vecsum],
         "Lanes": config.lanes,
         "VectorUnits": config.vector_units,
+        "VectorDrop": config.vector_drop,
         "Rings": config.rings,
         "VectorRings": config.vector_rings,
     }

@@ -44,9 +44,12 @@ class Work(NamedTuple):
     lanes: Lanes  # J+1 lanes
 
 
-def new_work(n1: int, degree: int) -> Work:
-    """Scratch for a step of J = 2**n1 cells and control points of a degree (1: vector sums)."""
-    return Work(zeros((degree << n1) + 1), zeros((n1 + 1) * 5), new_lanes((1 << n1) + 1))
+def new_work(n1: int, degree: int, drop: int = 0) -> Work:
+    """Scratch for a step of J = 2**n1 cells and control points of a degree (1: vector sums).
+
+    drop  digits that the vector-sum evaluator leaves away
+    """
+    return Work(zeros((degree << n1) + 1), zeros((n1 + 1) * 5), new_lanes((1 << n1) + 1, drop))
 
 
 @kernel

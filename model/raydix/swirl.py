@@ -84,7 +84,7 @@ def _polar(x, y):
     back = x >> 63
     u, v, w = (x ^ back) - back, (y ^ back) - back, back & (1 << (ANGLE_WIDTH - 1))
     for i in range(SWIRL_ITERATIONS):
-        longer, v, w = turned(u, v, w, i)
+        longer, v, w = turned(u, v, w, i, 0)
         u = longer if i < SWIRL_STILL else u
     return u, (w & ((1 << ANGLE_WIDTH) - 1)) >> ANGLE_DROP
 

@@ -12,7 +12,6 @@ import numpy as np
 from .cordic import lengths, vectoring
 from .formats import (
     ANGLE_ITERATIONS,
-    ANGLE_STILL,
     COORD_FRAC,
     FORM_INDEX,
     LENGTH_ITERATIONS,
@@ -39,10 +38,11 @@ TUBE_GROWTH = FORM_INDEX["tube_growth"]
 UP = VECTOR_FRAC - COORD_FRAC  # coordinate s2p30 to length s5p33
 GROWTH_DROP = 30 + TURN_FRAC - VECTOR_FRAC  # s6p30 times turns to a length
 FAR = (1 << (VECTOR_WIDTH - 1)) - 1
+DROPS = (0, 4, 8, 12)
 
 
 class Lanes(NamedTuple):
-    """Working vectors of the evaluator, one place for each lane, two in u and v."""
+    """Working vectors of the evaluator, one place for each lane, two in u and v; lengths have ``drop`` digits fewer."""
 
     x: np.ndarray  # the point, s2p30; z carries K
     y: np.ndarray
@@ -54,36 +54,48 @@ class Lanes(NamedTuple):
     height: np.ndarray  # over the centre of a ball
     u: np.ndarray  # legs of triangles: with the tube's centre, then with the ball's
     v: np.ndarray
+    drop: int  # digits that the evaluator leaves away, one of DROPS
 
 
-def new_lanes(count: int) -> Lanes:
-    """Vectors for ``count`` lanes."""
-    return Lanes(*(zeros(2 * count if name in "uv" else count) for name in Lanes._fields))
+def new_lanes(count: int, drop: int = 0) -> Lanes:
+    """Vectors for ``count`` lanes of an evaluator that leaves ``drop`` digits away."""
+    vectors = {name: zeros(2 * count if name in "uv" else count) for name in Lanes._fields if name != "drop"}
+    return Lanes(**vectors, drop=drop)
+
+
+@kernel
+def iterations(drop):
+    """Iterations of the angle's CORDIC, that from which on its radius stays, those of a length's; multiples of 4."""
+    angle = ANGLE_ITERATIONS - drop
+    still = ((VECTOR_WIDTH - drop) // 8 + 1) * 4
+    return angle, min(still, angle), (2 * LENGTH_ITERATIONS - drop + 7) // 8 * 4
 
 
 @kernel
 def tube(lanes, count, form, second, general):
     """Legs of the triangle between the points and the centre of the nearest turn; the tube's radius there."""
+    drop = lanes.drop
     for j in range(count):
-        place = nearest(lanes.rho[j], lanes.z[j], lanes.angle[j], form, second, general)
+        place = nearest(lanes.rho[j] << drop, lanes.z[j], lanes.angle[j], form, second, general)
         radius, size = form[RADIUS], form[TUBE]
         if general:
             radius += scaled(place, form[RADIUS_GROWTH], GROWTH_DROP)
             size += scaled(place, form[TUBE_GROWTH], GROWTH_DROP)
             size = size if place >= 0 else -FAR  # no turn at this azimuth
-        lanes.u[j] = lanes.rho[j] - radius
-        lanes.v[j] = (lanes.z[j] << UP) - form[HEIGHT] - scaled(place, form[PITCH], GROWTH_DROP)
-        lanes.size[j] = size
+        lanes.u[j] = lanes.rho[j] - (radius >> drop)
+        lanes.v[j] = ((lanes.z[j] << UP) - form[HEIGHT] - scaled(place, form[PITCH], GROWTH_DROP)) >> drop
+        lanes.size[j] = size >> drop
 
 
 @kernel
 def ball(lanes, count, form, second, general):
     """Legs in the plane, and height, of the points over the ball at an end (without ``general``: at the nearer one)."""
+    drop = lanes.drop
     for j in range(count):
         stop = second == 1 if general else lanes.z[j] >= form[SPLIT]
-        lanes.u[count + j] = (lanes.x[j] - (form[STOP] if stop else form[START])) << UP
-        lanes.v[count + j] = (lanes.y[j] - (form[STOP + 1] if stop else form[START + 1])) << UP
-        lanes.height[j] = (lanes.z[j] - (form[STOP + 2] if stop else form[START + 2])) << UP
+        lanes.u[count + j] = ((lanes.x[j] - (form[STOP] if stop else form[START])) << UP) >> drop
+        lanes.v[count + j] = ((lanes.y[j] - (form[STOP + 1] if stop else form[START + 1])) << UP) >> drop
+        lanes.height[j] = ((lanes.z[j] - (form[STOP + 2] if stop else form[START + 2])) << UP) >> drop
 
 
 @subroutine
@@ -94,26 +106,29 @@ def evaluate(lanes, count, form, general):
     the bound of the indicator's change does not hold), and at least ``guard`` less the whole of it (about the axis
     there is no surface, and the azimuth means nothing). Positive outside; zero counts as inside.
     ``general``: 0 where neither radius grows and the spiral has a whole turn at least, else 1.
+    Lengths are those of s5p33 without the last ``lanes.drop`` digits, which are 0 in ``value``; ``rho`` stays without.
     Source: docs/spirals.md, "The indicator".
     """
+    drop = lanes.drop
+    around, still, along = iterations(drop)
     for j in range(count):
-        lanes.rho[j] = lanes.x[j] << UP
-        lanes.v[j] = lanes.y[j] << UP
-        lanes.value[j] = FAR
-    vectoring(lanes.rho, lanes.v, lanes.angle, count, ANGLE_ITERATIONS, ANGLE_STILL)
+        lanes.rho[j] = (lanes.x[j] << UP) >> drop
+        lanes.v[j] = (lanes.y[j] << UP) >> drop
+        lanes.value[j] = FAR >> drop
+    vectoring(lanes.rho, lanes.v, lanes.angle, count, around, still, drop)
     for second in range(1 + general):
         tube(lanes, count, form, second, general)
         ball(lanes, count, form, second, general)
-        lengths(lanes.u, lanes.v, 2 * count, LENGTH_ITERATIONS)
+        lengths(lanes.u, lanes.v, 2 * count, along)
         for j in range(count):
             lanes.value[j] = min(lanes.value[j], lanes.u[j] - lanes.size[j])
             lanes.u[j] = lanes.u[count + j]
-        lengths(lanes.u, lanes.height, count, LENGTH_ITERATIONS)
-        size = form[TUBE_STOP] if second else form[TUBE]
+        lengths(lanes.u, lanes.height, count, along)
+        size = (form[TUBE_STOP] if second else form[TUBE]) >> drop
         for j in range(count):
             lanes.value[j] = min(lanes.value[j], lanes.u[j] - size)
     for j in range(count):
         axis = lanes.rho[j] + (lanes.rho[j] >> 1)
         outside = lanes.value[j] > 0
-        size = max(form[GUARD] - axis, min(abs(lanes.value[j]), axis >> 1))
-        lanes.value[j] = size if outside else -size
+        size = max((form[GUARD] >> drop) - axis, min(abs(lanes.value[j]), axis >> 1))
+        lanes.value[j] = (size if outside else -size) << drop

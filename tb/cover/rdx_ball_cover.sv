@@ -3,12 +3,14 @@
 `default_nettype none
 `include "rdx_cover.svh"
 
-module rdx_ball_cover (
-    input wire logic             clk_i,
-    input wire logic             en_i,
-    input wire logic             stop_i,
-    input wire rdx_pkg::vector_t leg_q     [3],
-    input wire rdx_pkg::vector_t distance_o
+module rdx_ball_cover #(
+    parameter int unsigned V = rdx_pkg::VectorWidth
+) (
+    input wire logic                clk_i,
+    input wire logic                en_i,
+    input wire logic                stop_i,
+    input wire logic signed [V-1:0] leg_q     [3],
+    input wire logic signed [V-1:0] distance_o
 );
   for (genvar o = 0; o < 8; o++) begin : gen_octant
     `RDX_COVER(seen_from_centre, {leg_q[2] < 0, leg_q[1] < 0, leg_q[0] < 0} == 3'(o))
@@ -22,6 +24,6 @@ module rdx_ball_cover (
   `RDX_COVER(stalled, !en_i)
 endmodule
 
-bind rdx_ball rdx_ball_cover u_cover (.*);
+bind rdx_ball rdx_ball_cover #(.V(V)) u_cover (.*);
 
 `default_nettype wire

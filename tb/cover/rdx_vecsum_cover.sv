@@ -5,19 +5,20 @@
 
 module rdx_vecsum_cover #(
     parameter bit General = 1'b0,
+    parameter int unsigned V = rdx_pkg::VectorWidth,
     localparam int unsigned Parts = General ? 2 : 1
 ) (
-    input wire logic             clk_i,
-    input wire logic             en_i,
-    input wire logic             none,
-    input wire rdx_pkg::vector_t distance[2*Parts],
-    input wire rdx_pkg::vector_t nearer_q[      2],
-    input wire rdx_pkg::vector_t size_q,
-    input wire rdx_pkg::vector_t axis_q  [      3],
-    input wire rdx_pkg::vector_t below_q,
-    input wire rdx_pkg::vector_t guard_q,
-    input wire rdx_pkg::vector_t least_q,
-    input wire rdx_pkg::vector_t value_o
+    input wire logic                     clk_i,
+    input wire logic                     en_i,
+    input wire logic                     none,
+    input wire logic signed      [V-1:0] distance[2*Parts],
+    input wire logic signed      [V-1:0] nearer_q[      2],
+    input wire logic signed      [V-1:0] size_q,
+    input wire logic signed      [V-1:0] axis_q  [      3],
+    input wire logic signed      [V-1:0] below_q,
+    input wire logic signed      [V-1:0] guard_q,
+    input wire logic signed      [V-1:0] least_q,
+    input wire rdx_pkg::vector_t         value_o
 );
   for (genvar i = 0; i < Parts; i++) begin : gen_part
     `RDX_COVER(tube_nearer, distance[2*i] < distance[2*i+1])
@@ -38,6 +39,9 @@ module rdx_vecsum_cover #(
   `RDX_COVER(stalled, !en_i)
 endmodule
 
-bind rdx_vecsum rdx_vecsum_cover #(.General(General)) u_cover (.*);
+bind rdx_vecsum rdx_vecsum_cover #(
+    .General(General),
+    .V(V)
+) u_cover (.*);
 
 `default_nettype wire

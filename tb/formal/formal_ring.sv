@@ -32,7 +32,7 @@ module formal_ring #(
   localparam int unsigned HalveStages = D == 1 ? 1 : 0;
   localparam int unsigned Rules = RuleCertified;
   localparam int unsigned Phases = D == 1 ? phases((1 << N1) - 1, Lanes) : 1;
-  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
+  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, 0, Rules);
   localparam int unsigned Slots = (U * Latency + 3 + Phases - 1) / Phases;
   localparam int unsigned MostSteps = (1 << StepsWidth) - 1;
 

@@ -18,6 +18,7 @@ module rdx_step #(
     parameter int unsigned HalveStages = (D + 1) / 2,
     parameter int unsigned Lanes = (1 << N1) - 1,
     parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0,
     localparam int unsigned N = N1 * K,
     localparam type control_t = `RDX_CONTROL_T(N),
     localparam type segment_t = `RDX_SEGMENT_T(W, D)
@@ -34,7 +35,7 @@ module rdx_step #(
 );
   import rdx_pkg::*;
 
-  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, Rules);
+  localparam int unsigned Latency = step_latency(N1, D, HalveStages, Lanes, VectorDrop, Rules);
 
   // anything: the driver leaves what nothing drives free
   logic root, dead, found, scrambled;

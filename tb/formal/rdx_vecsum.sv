@@ -3,7 +3,8 @@
 `default_nettype none
 
 module rdx_vecsum #(
-    parameter bit General = 1'b0
+    parameter bit General = 1'b0,
+    parameter int unsigned VectorDrop = 0
 ) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
@@ -15,7 +16,7 @@ module rdx_vecsum #(
 
   rdx_pkg::vector_t any;  // anything: the driver leaves what nothing drives free
   always_ff @(posedge clk_i) if (en_i) value_o <= any;
-  wire unused = &{1'b0, rst_ni, form_i, point_i[0], point_i[1], point_i[2], General};
+  wire unused = &{1'b0, rst_ni, form_i, point_i[0], point_i[1], point_i[2], General, VectorDrop};
 
 endmodule
 
