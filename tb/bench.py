@@ -30,6 +30,7 @@ from cocotb.types import LogicArray
 
 import second
 from raydix import coverpoints, formats, runtime
+from raydix.building import building
 from raydix.files import GENERATED_CONTROL, ROOT, RTL, TRACE_CONTROL, environment, has_fst, reached, top_modules
 
 BUILD = ROOT / "build" / "tb"
@@ -80,9 +81,8 @@ def build(toplevel, parameters, waves=None):
     if (target / toplevel).exists():
         return target
     cache = BUILD / f"runtime-{hashlib.sha256(repr([*tools, runtime.compiler()]).encode()).hexdigest()[:20]}"
-    BUILD.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
-        work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
+    with building(BUILD) as folder:
+        work, log = folder / "work", BUILD / f"{target.name}.log"
         work.mkdir()
         runtime.place(work, cache)
         if counting:
@@ -104,7 +104,7 @@ def build(toplevel, parameters, waves=None):
             call = ["make", "-s", "-C", str(work), "-f", "Vtop.mk", "OPT_FAST=-O0", runtime.COMPILED]
             subprocess.run(call, check=True)
             runtime.keep(work, cache)
-        place = Path(folder, target.name)
+        place = folder / target.name
         place.mkdir()
         shutil.move(work / toplevel, place)
         with contextlib.suppress(OSError):  # another worker was first

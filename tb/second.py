@@ -15,11 +15,11 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 from importlib.metadata import version
 from pathlib import Path
 
 import netlist
+from raydix.building import building
 from raydix.files import ROOT, RTL, reached
 
 BUILD = ROOT / "build" / "second"
@@ -142,9 +142,8 @@ def build(toplevel, parameters, files=None):
     target = BUILD / f"{toplevel}-{hashlib.sha256(facts).hexdigest()[:20]}"
     if (target / "sim.vvp").exists():
         return target
-    BUILD.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as folder:
-        work, log = Path(folder, "work"), BUILD / f"{target.name}.log"
+    with building(BUILD) as folder:
+        work, log = folder / "work", BUILD / f"{target.name}.log"
         work.mkdir()
         ports, values = elaborate(toplevel, parameters, files)
         outer, inner = work / "shell.v", work / "netlist.v"

