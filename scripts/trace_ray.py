@@ -23,7 +23,7 @@ from raydix.command import status_of, whole
 from raydix.compile import CompiledFrame, CompiledSurface, compile_scene
 from raydix.config import Config, ConfigError
 from raydix.image import check_folder, write_files
-from raydix.localise import first_difference, follow_both, surfaces_at
+from raydix.localise import Followed, follow_both, surfaces_at
 from raydix.options import add_scene_options, config_of, scene_of
 from raydix.progress import working
 from raydix.rtl import TOP, build
@@ -127,16 +127,16 @@ def main(arguments=None) -> int:
         name = f"{scene.name}, pixel {x},{y}, surface {surface.index} ({kind}), {args.rule} rule"
         with working(f"following the ray on surface {surface.index}"):
             if args.rtl:
-                steps, differences = follow_both(scene, compiled, surface, config, x, y, wave)
+                ray = follow_both(scene, compiled, surface, config, x, y, wave)
             else:
                 steps = follow(surface, config, x, y)
-                differences = ["–"] * len(steps)
-            write_files({picture: partial(plot_ray, steps, config.n1, config.k_stop, name)})
-        show_table(name, COLUMNS, rows_of(steps, differences, surface, config), ("control points", "RTL"), 200)
+                ray = Followed(steps, ["–"] * len(steps), "")
+            write_files({picture: partial(plot_ray, ray.steps, config.n1, config.k_stop, name)})
+        show_table(name, COLUMNS, rows_of(ray.steps, ray.differences, surface, config), ("control points", "RTL"), 200)
         print(f"picture: {picture}" + (f"; waveform: {wave}" if args.rtl else ""))
-        if args.rtl and (first := first_difference(steps, differences)):
+        if args.rtl and ray.first:
             differ = 1
-            print(f"RTL and golden model differ: {first}")
+            print(f"RTL and golden model differ: {ray.first}")
     return differ
 
 

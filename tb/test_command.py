@@ -166,6 +166,17 @@ def test_waveform_is_whole_or_not_there(tmp_path, end):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bench", "w.vcd"]
 
 
+def test_failed_assertion_is_named(tmp_path):
+    """Of a simulation that an assertion stops not the last line is told, which is the same for all, but its own."""
+    bench = tmp_path / "bench"
+    bench.write_text(
+        "#!/bin/sh\necho '[7] %Error: a.sv:1: failed in top.u_a'; echo '%Error: stop'; echo Aborting...; exit 1\n"
+    )
+    bench.chmod(0o755)
+    with pytest.raises(RtlError, match=r"simulation failed: \[7\] %Error: a.sv:1: failed in top.u_a$"):
+        simulate([bench], 1, None, None, None)
+
+
 def test_table_is_whole(tmp_path, monkeypatch):
     """A page whose table cannot be written stays as it was, and nothing is beside it."""
     page = tmp_path / "page.md"

@@ -7,6 +7,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -19,9 +20,11 @@ from raydix.compile import compile_scene
 from raydix.config import Config
 from raydix.fit import families
 from raydix.golden import trace_golden
+from raydix.localise import Followed, colour_difference, difference, hit_difference
 from raydix.options import config_of, scene_of
 from raydix.scene import load_scene
-from raydix.trace_ray import alone, follow, pixel_of
+from raydix.trace_ray import Step, alone, follow, pixel_of
+from raydix.waves import Output, step_outputs
 from scripting import scripts
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -106,6 +109,58 @@ def test_rtl_takes_the_same_steps(script, tmp_path, capsys, name, pixel):
     assert script.main(arguments) == 0
     said = capsys.readouterr().out
     assert "same" in said and "differ" not in said
+
+
+def test_first_difference():
+    """A control point that enters a step comes before what leaves it; a step's wrong number is told last."""
+    step = Step(1, 0, 0, [5, 6], [], 0, 1, 0, 8, -1, "run", [1, 2], 3)
+    right = Output(1, [5, 6], 8, -1, "run", [1, 2], 3)
+    for change, said in (
+        ({}, ""),
+        ({"control": []}, ""),  # not seen
+        ({"control": [5, 7], "t": 9}, "b[1] before it: golden 6, RTL 7"),
+        ({"t": 9, "after": [0, 2]}, "t: golden 8, RTL 9"),
+        ({"after": [0, 2]}, "b[0]: golden 1, RTL 0"),
+        ({"number": 2}, "steps: golden 1, RTL 2"),
+    ):
+        assert difference(step, replace(right, **change)) == said
+    assert Followed([step, step], ["", "a"], "").first == "step 1, a"
+    assert Followed([step], [""], "red: golden 1, RTL 2").first == "behind the steps, red: golden 1, RTL 2"
+    assert Followed([step], [""], "").first == ""
+
+
+def test_difference_behind_the_steps():
+    """The first field of a hit, the first channel of a colour."""
+    compiled, config, _ = frame_of("torus")
+    one = alone(compiled, compiled.surfaces[0], 38, 18)
+    golden, rtl = trace_golden(one, config), trace_golden(one, config)
+    assert hit_difference(golden, rtl) == ""
+    rtl.surfaces[0].point[0, 0, 0, 2] ^= 1
+    assert hit_difference(golden, rtl).startswith("point of hit 1: golden [")
+    colours = np.array([[[[9, 8, 7]]], [[[9, 6, 5]]]], np.uint8)
+    assert colour_difference(*colours) == "green: golden 8, RTL 6" and colour_difference(*colours[[0, 0]]) == ""
+
+
+STEPS = """$timescale 1ps $end $scope module u_ring $end {units} $upscope $end $enddefinitions $end
+#0\nb1 s0\nb0 n0\nb0 t0\n0p0\nb11 b0\nb0 d0
+#1\nb1 s1\nb1 n1\nb1 t1\n0p1\nb10 b1\nb0 d1\n#2\nb11 s2\nb10 n2\nb11 t2\n0p2\nb1 b2\nb0 d2\n#3\n"""
+
+
+def test_output_of_a_unit_is_input_of_the_next(tmp_path):
+    """They have one code in a waveform; both steps are found, each with what enters it."""
+    fields = ("control_{}.status 3 s", "control_{}.steps 20 n", "control_{}.t 24 t", "control_{}.pending 1 p",
+              "segment_{}.b[0] 8 b", "segment_{}.ends.depth_start 8 d")  # fmt: skip
+    units = ""
+    for unit in range(2):
+        ports = [f.format(side).split() + [str(unit + at)] for at, side in enumerate("io") for f in fields]
+        variables = " ".join(
+            f"$var wire {width} {code}{at} {name} [{int(width) - 1}:0] $end" for name, width, code, at in ports
+        )
+        units += (
+            f"$scope module gen_unit[{unit}] $end $scope module u_step $end {variables} $upscope $end $upscope $end "
+        )
+    (wave := tmp_path / "w.vcd").write_text(STEPS.format(units=units))
+    assert step_outputs(wave) == [Output(1, [3], 1, -1, "run", [2], 0), Output(2, [2], 3, -1, "hit", [1], 0)]
 
 
 @pytest.fixture

@@ -309,7 +309,8 @@ def _replay(verdict: "Verdict", config: Config, scene: Scene, args: argparse.Nam
 
 def _localise(verdict: "Verdict", config: Config, scene: Scene, out: Path) -> str:
     """The first step and signal in which the first ray that differs does; empty where no ray does."""
-    from .localise import first_difference, follow_both, surfaces_at
+    from .localise import follow_both, surfaces_at
+    from .rtl import RtlError
 
     ray = verdict.first_ray()
     if ray is None:
@@ -319,11 +320,17 @@ def _localise(verdict: "Verdict", config: Config, scene: Scene, out: Path) -> st
     _build(config, "vcd")
     for surface in surfaces_at(compiled, x, y, number):
         wave = out / f"{scene.name}-{x}-{y}-surface{surface.index}.vcd"
-        with working(f"following the ray on surface {surface.index}"):
-            first = first_difference(*follow_both(scene, compiled, surface, config, x, y, wave))
+        try:
+            with working(f"following the ray on surface {surface.index}"):
+                first = follow_both(scene, compiled, surface, config, x, y, wave).first
+        except RtlError as error:
+            return f"surface {surface.index}, the ray alone: {error}; waveform: {wave}"
         if first:
             return f"RTL and golden model differ: surface {surface.index}, {first}; waveform: {wave}"
-    return "alone, the ray takes the same steps in both: the mistake is before the rings or behind them"
+    return (
+        "alone, the ray has the same steps, hits and colour in both: the mistake is before it (raster, skipping), "
+        "or comes only beside other rays or surfaces"
+    )
 
 
 def _from_here(path: Path) -> str:

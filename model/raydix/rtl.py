@@ -230,16 +230,17 @@ def simulate(command, total: int, stall: int | None, wave: Path | None, progress
     command = [*map(str, command)]
     command += ["--stall", str(stall)] if stall is not None else []
     command += ["--progress", str(1 << 14)] if progress else []
-    line = ""
+    line, failed = "", ""
     with replacing(wave) if wave else nullcontext() as part:
         command += ["--trace", str(part)] if part else []
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
             assert run.stdout  # it is a pipe
             for line in run.stdout:
+                failed = failed or (line if "%Error" in line else "")  # an assertion's; more lines say that it stops
                 if progress and line.startswith("progress "):
                     progress(int(line.split()[1]), total)
     if run.returncode:
-        raise RtlError(f"simulation failed: {line.strip()}")
+        raise RtlError(f"simulation failed: {(failed or line).strip()}")
     return json.loads(line)
 
 

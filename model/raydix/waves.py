@@ -8,16 +8,21 @@ from pathlib import Path
 
 from vcd.reader import TokenKind, VarDecl, tokenize
 
+from .item import RUN
 from .trace_ray import NAMES
 
-STEP = re.compile(r"(.*u_ring\.gen_unit\[\d+\]\.u_step)\.((?:control|segment)_o\..*)")  # step unit, signal
+STEP = re.compile(r"(.*u_ring\.gen_unit\[\d+\]\.u_step)\.((?:control|segment)_[io]\..*)")  # step unit, signal
 
 
 @dataclass
 class Output:
-    """What left the step unit after a step; fields as those of :class:`~raydix.trace_ray.Step`."""
+    """What left the step unit after a step; fields as those of :class:`~raydix.trace_ray.Step`.
+
+    control   control points that entered it, empty where they were not seen
+    """
 
     number: int
+    control: list[int]
     t: int
     next_t: int
     status: str
@@ -48,44 +53,60 @@ def variables(wave: Path) -> Iterator[tuple[tuple[str, ...], VarDecl]]:
 def step_outputs(wave: Path) -> list[Output]:
     """Every step of the only ray of a simulation, from a waveform (VCD), whichever step unit has taken it.
 
+    In the order of their numbers, which may have gaps where the design is wrong.
+
     Raises ValueError where the waveform has no step unit.
     """
-    names: dict[str, tuple[str, str, int]] = {}  # code: step unit, its signal, width
+    names: dict[str, list[tuple[str, str, int]]] = {}  # code: step units' signals, with widths
     for scopes, declared in variables(wave):
         if match := STEP.fullmatch(".".join([*scopes, declared.reference])):
-            names[declared.id_code] = match[1], match[2], declared.size
+            names.setdefault(declared.id_code, []).append((match[1], match[2], declared.size))
     if not names:
         raise ValueError(f"{wave}: found no step unit; allowed: a waveform of rdx_core or rdx_top")
-    units: dict[str, dict[str, int]] = {unit: {} for unit, _, _ in names.values()}
+    units: dict[str, dict[str, int]] = {unit: {} for ports in names.values() for unit, _, _ in ports}
     found: list[Output] = []
+    entered: list[int] = []  # control points of the step that is being taken
     with wave.open("rb") as file:
         for token in tokenize(file):
             if token.kind is TokenKind.CHANGE_TIME:
-                _look(units, found)
+                _look(units, found, entered)
             elif token.kind in (TokenKind.CHANGE_SCALAR, TokenKind.CHANGE_VECTOR):
                 scalar = token.kind is TokenKind.CHANGE_SCALAR
                 change = token.scalar_change if scalar else token.vector_change
-                if change.id_code in names:
-                    unit, signal, width = names[change.id_code]
+                for unit, signal, width in names.get(change.id_code, ()):
                     value = int(change.value) if str(change.value) in "01" or isinstance(change.value, int) else 0
-                    units[unit][signal] = signed(value, width) if signal.startswith("segment_o.") else value
-    _look(units, found)
+                    units[unit][signal] = signed(value, width) if signal.startswith("segment_") else value
+    _look(units, found, entered)
     return found
 
 
-def _look(units: dict[str, dict[str, int]], found: list[Output]) -> None:
-    """Note the item at the output of a unit where it has taken one step more than the last that was noted."""
+def _look(units: dict[str, dict[str, int]], found: list[Output], entered: list[int]) -> None:
+    """Note the item at the output of a unit where it has taken more steps than the last that was noted.
+
+    ``entered`` takes the control points of the item that has taken no more and enters a unit.
+    """
+    taken = found[-1].number if found else 0
     for values in units.values():
         status, number = values.get("control_o.status", 0), values.get("control_o.steps", 0)
-        if status in NAMES and number == len(found) + 1:
-            b = sorted((signal, value) for signal, value in values.items() if signal.startswith("segment_o.b["))
+        if status in NAMES and number > taken:
+            taken = number
             found.append(
                 Output(
                     number,
+                    [*entered],
                     values["control_o.t"],
                     values["control_o.t_next"] if values["control_o.pending"] else -1,
                     NAMES[status],
-                    [value for _, value in b],
+                    _points(values, "segment_o.b["),
                     values["segment_o.ends.depth_start"],
                 )
             )
+            entered.clear()
+    for values in units.values():
+        if values.get("control_i.status") == RUN and values.get("control_i.steps") == taken:
+            entered[:] = _points(values, "segment_i.b[")
+
+
+def _points(values: dict[str, int], name: str) -> list[int]:
+    """Elements of an array of up to ten, in order."""
+    return [value for signal, value in sorted(values.items()) if signal.startswith(name)]
