@@ -8,6 +8,7 @@ MODULE := $(T:rdx_%=%)
 PROCESSORS := render-quadric render-torus render-spiral
 VENV   := .venv
 BIN    := $(VENV)/bin
+RUN    := $(BIN)/python -m raydix.entry
 READY  := $(VENV)/.ready
 TESTS   = $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --junitxml=build/results
 
@@ -44,13 +45,13 @@ regress: $(READY) ## every test (SEED=<n> JOBS=2)
 	@SEED="$(SEED)" WAVES= RAYDIX_SHORT= $(TESTS)/regress.xml
 
 second: $(READY) ## the module tests under Icarus Verilog, with four-state values (T=<module> SEED=<n> JOBS=2 ARGS=)
-	@$(BIN)/python scripts/second.py $(MODULE) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) $(ARGS)
+	@$(RUN) scripts/second.py $(MODULE) --jobs $(JOBS) $(if $(SEED),--seed $(SEED)) $(ARGS)
 
 formal: $(READY) ## machine proofs of the RTL, of POINT= or all of them, each also of a broken design (ARGS=)
-	@$(BIN)/python scripts/formal.py $(POINT) $(ARGS)
+	@$(RUN) scripts/formal.py $(POINT) $(ARGS)
 
 coverage: $(READY) ## blocks, toggled bits and functional bins that each module's own test covers (T=<module> JOBS=2 ARGS=--write)
-	@$(BIN)/python scripts/cover.py $(MODULE) --jobs $(JOBS) $(ARGS)
+	@$(RUN) scripts/cover.py $(MODULE) --jobs $(JOBS) $(ARGS)
 
 lint: $(READY) ## Verilator -Wall, Verible, pyslang, yosys read_slang, ruff, mypy, generated files
 	@$(BIN)/python -m pytest -q tb/test_lint.py
@@ -62,73 +63,73 @@ csr: $(READY) ## generate build/csr from rtl/rdx_csr.rdl: register block, C head
 	@$(BIN)/python -m raydix.csr --write
 
 accuracy: $(READY) ## error against float64 roots of the ideal scene, of SCENE= or of every scene (ARGS=)
-	@$(BIN)/python scripts/accuracy.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+	@$(RUN) scripts/accuracy.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
 rules: $(READY) ## paper rule against certified rule on random chords (ARGS=)
-	@$(BIN)/python scripts/rules.py $(ARGS)
+	@$(RUN) scripts/rules.py $(ARGS)
 
 types: $(READY) ## both rules and every width on random chords through each algebraic type of surface (ARGS=)
-	@$(BIN)/python scripts/every_type.py $(ARGS)
+	@$(RUN) scripts/every_type.py $(ARGS)
 
 spirals: $(READY) ## random spirals against dense sampling: missed roots, error of t, steps, bounds (ARGS=)
-	@$(BIN)/python scripts/spirals.py $(ARGS)
+	@$(RUN) scripts/spirals.py $(ARGS)
 
 errors: $(READY) ## rounding errors of each stage: bound and worst found (ARGS=)
-	@$(BIN)/python scripts/errors.py $(ARGS)
+	@$(RUN) scripts/errors.py $(ARGS)
 
 stress: $(READY) ## 10^7 difficult rays in named categories against exact roots, both rules (JOBS=2 ARGS=)
-	@$(BIN)/python scripts/stress.py --jobs $(JOBS) $(ARGS)
+	@$(RUN) scripts/stress.py --jobs $(JOBS) $(ARGS)
 
 search: $(READY) ## evolutionary search for the largest error and the most steps (ARGS=)
-	@$(BIN)/python scripts/search.py $(ARGS)
+	@$(RUN) scripts/search.py $(ARGS)
 
 exact-spirals: $(READY) ## the golden model on chords through random spirals, each verdict proved by ball arithmetic (ARGS=)
-	@$(BIN)/python scripts/exact_spirals.py $(ARGS)
+	@$(RUN) scripts/exact_spirals.py $(ARGS)
 
 speed: $(READY) ## golden model on one and two threads, and the RTL simulation (SCENE= ARGS=)
-	@$(BIN)/python scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+	@$(RUN) scripts/speed.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
 realtime: $(READY) ## cycles of a frame of the processor at 1920x1080 and the clock for 60 Hz, of SCENE= or the paper's figure 2 (ARGS=)
-	@$(BIN)/python scripts/realtime.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+	@$(RUN) scripts/realtime.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
 bench: $(READY) ## run time against error: golden model and alternatives on the same rays, five scenes or SCENE= (ARGS=)
-	@$(BIN)/python scripts/benchmark.py $(if $(SCENE),"$(SCENE)") $(ARGS)
+	@$(RUN) scripts/benchmark.py $(if $(SCENE),"$(SCENE)") $(ARGS)
 
 bench-full: $(READY) ## the same for every scene with one surface, fewer turns, and the clocks of the placed engines (ARGS=--write)
-	@$(BIN)/python scripts/benchmark.py --full --rtl --repeats 5 $(ARGS)
+	@$(RUN) scripts/benchmark.py --full --rtl --repeats 5 $(ARGS)
 
 bench-check: $(READY) ## compare the ratios with those kept in docs/benchmarks.json (ARGS=)
-	@$(BIN)/python scripts/benchmark.py --check $(ARGS)
+	@$(RUN) scripts/benchmark.py --check $(ARGS)
 
 scaling: $(READY) ## time against pixels, surfaces, depth complexity, unneeded parts: golden model and processor (ARGS=)
-	@$(BIN)/python scripts/scaling.py $(ARGS)
+	@$(RUN) scripts/scaling.py $(ARGS)
 
 explore: $(READY) ## the trade-off: design points placed, simulated and compared; hours, resumes (JOBS=2 ARGS=)
-	@$(BIN)/python scripts/explore.py --jobs $(JOBS) $(ARGS)
+	@$(RUN) scripts/explore.py --jobs $(JOBS) $(ARGS)
 
 report: $(READY) ## one HTML page of what was rendered, tested and measured last: build/report.html (ARGS=)
-	@$(BIN)/python scripts/report.py $(ARGS)
+	@$(RUN) scripts/report.py $(ARGS)
 
 waves: $(READY) ## run one test with a waveform and write what shows it: GTKWave, Surfer, a picture (T=<module>, or "<module>[N1=3"; ARGS=)
 	@[ -n "$(T)" ] || { echo "make waves: found no T; allowed: a module, for example T=ring" >&2; exit 2; }
-	@$(BIN)/python scripts/waves.py "$(T)" $(if $(SEED),--seed $(SEED)) $(ARGS)
+	@$(RUN) scripts/waves.py "$(T)" $(if $(SEED),--seed $(SEED)) $(ARGS)
 
 figures: $(READY) ## draw the figures of docs/method.md from what the golden model computes (ARGS=--write)
-	@$(BIN)/python scripts/figures.py $(ARGS)
+	@$(RUN) scripts/figures.py $(ARGS)
 
 trace-ray: $(READY) ## follow the ray of a pixel through golden model and RTL, step by step, and draw it (SCENE= PIXEL=x,y ARGS=)
 	@[ -n "$(SCENE)" ] && [ -n "$(PIXEL)" ] || { \
 	  echo "make trace-ray: found SCENE=$(SCENE) PIXEL=$(PIXEL); allowed: both, for example SCENE=scenes/torus.toml PIXEL=300,140" >&2; exit 2; }
-	@$(BIN)/python scripts/trace_ray.py "$(SCENE)" --pixel "$(PIXEL)" $(ARGS)
+	@$(RUN) scripts/trace_ray.py "$(SCENE)" --pixel "$(PIXEL)" $(ARGS)
 
 synth: $(READY) ## size and clock of modules on an ECP5 by yosys and nextpnr, of POINT= or of every point (JOBS=2 ARGS=)
-	@$(BIN)/python scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)
+	@$(RUN) scripts/synth.py $(POINT) --jobs $(JOBS) $(ARGS)
 
 pnr: $(READY) ## place and route the processor: size, clock, slowest path, of POINT= or of each for 1080p60; half an hour each (JOBS=2 ARGS=)
-	@$(BIN)/python scripts/synth.py $(if $(POINT),$(POINT),$(PROCESSORS)) --jobs $(JOBS) $(ARGS)
+	@$(RUN) scripts/synth.py $(if $(POINT),$(POINT),$(PROCESSORS)) --jobs $(JOBS) $(ARGS)
 
 mutants: $(READY) ## small changes of the RTL, one at a time, that its tests must find, of T=<module> or all (JOBS=2 ARGS=)
-	@$(BIN)/python scripts/mutants.py $(MODULE) --jobs $(JOBS) $(ARGS)
+	@$(RUN) scripts/mutants.py $(MODULE) --jobs $(JOBS) $(ARGS)
 
 clean: ## remove build/
 	rm -rf build

@@ -25,7 +25,7 @@ SPHERE = "scenes/sphere.toml"
 
 def script(*arguments, **keywords):
     """A script with its arguments, started."""
-    line = [sys.executable, f"scripts/{arguments[0]}", *map(str, arguments[1:])]
+    line = [sys.executable, "-m", "raydix.entry", f"scripts/{arguments[0]}", *map(str, arguments[1:])]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "cwd": ROOT}
     return subprocess.Popen(line, **pipes | keywords)
 
@@ -145,6 +145,32 @@ def test_interrupted(arguments):
     said = run.communicate(timeout=60)[1]
     assert run.returncode == 130, said
     assert said.strip() == f"{Path(arguments[0]).stem}: interrupted; nothing half written"
+
+
+def test_interrupted_while_it_is_loaded(tmp_path):
+    """Ctrl-C while a script that make starts still loads its libraries, one of them beside it: the same line."""
+    (tmp_path / "early.py").write_text("import slow\n")
+    (tmp_path / "slow.py").write_text("import sys, time\nprint(*sys.argv, __name__, flush=True)\ntime.sleep(60)\n")
+    run = subprocess.Popen(
+        [sys.executable, "-m", "raydix.entry", tmp_path / "early.py", "--some", "option"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    assert run.stdout.readline() == f"{tmp_path}/early.py --some option slow\n"
+    run.send_signal(signal.SIGINT)
+    said = run.communicate(timeout=60)[1]
+    assert (run.returncode, said) == (130, "early: interrupted; nothing half written\n")
+
+
+def test_make_starts_scripts_by_the_entry_point():
+    """No other way, which would show a traceback; what is no script is refused."""
+    text = (ROOT / "Makefile").read_text()
+    assert "$(BIN)/python scripts/" not in text and text.count("$(RUN) scripts/") > 20
+    for words in ([], ["nothing.py"]):
+        done = subprocess.run([sys.executable, "-m", "raydix.entry", *words], capture_output=True, text=True)
+        assert done.returncode == 2 and re.fullmatch("entry: found '.*'; allowed: the file of a script\n", done.stderr)
 
 
 @pytest.mark.parametrize("end", ["ends", "fails", "is interrupted"])
