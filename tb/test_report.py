@@ -271,22 +271,43 @@ def test_fits_the_window(opened, width, height):
 @pytest.mark.parametrize(("width", "height"), [PHONE, DESK])
 @pytest.mark.parametrize("anchor", ["gallery", "regression", *CHAPTERS])
 def test_chapter_fits(opened, anchor, width, height):
-    """A link to each chapter in sight; its texts begin in the window, plots have nearly the size that they were
-    drawn for, and what is wider moves by itself, a table with the names of its rows in sight."""
+    """A link to each chapter in sight; its texts begin in the window, plots are whole, what is wider moves by itself,
+    a table with the names of its rows in sight."""
     tab = opened(width, height)
     box = tab.locator(f"nav a[href='#{anchor}']").bounding_box()
     assert box["x"] >= 0 and box["x"] + box["width"] <= width
     chapter = tab.locator(f"section#{anchor}")
-    for part in chapter.locator("h2, h3, p, summary, li").all():
+    for part in chapter.locator(":is(h2, h3, p, summary, li):visible").all():
         box = part.bounding_box()
         assert box["width"] > 0 and box["x"] >= 0 and box["x"] + box["width"] <= width, part.inner_text()
     for plot in chapter.locator(".plot").all():
-        natural, shown = plot.evaluate("i => [i.naturalWidth, i.getBoundingClientRect().width]")
-        assert shown >= min(natural, 960) * 0.85
+        box = plot.bounding_box()
+        assert box["x"] >= 0 and box["x"] + box["width"] <= width
     tab.evaluate("document.querySelectorAll('.scroll').forEach(s => s.scrollLeft = s.scrollWidth)")
     for table in chapter.locator(".scroll table").all():
         first, last = (table.locator(f"tr:last-child td:{i}-child").bounding_box() for i in ("first", "last"))
         assert 0 <= first["x"] < last["x"] and last["x"] + last["width"] <= width + 1
+    assert tab.evaluate("scrollX") == 0
+
+
+LETTERS = "i => i.getBoundingClientRect().width / Math.min(i.naturalWidth, 960)"  # how large they are, as drawn 1
+
+
+@pytest.mark.parametrize(("width", "height"), [PHONE, DESK])
+def test_plots(opened, width, height):
+    """Nearly as large as they were drawn, on a phone when tapped, the tapped place in sight; whole by another tap."""
+    tab = opened(width, height)
+    assert tab.locator(".plot").count() and tab.locator(".tap").first.is_visible() == (width < 864)
+    for plot in tab.locator(".plot").all():
+        if width < 864:
+            whole = plot.bounding_box()
+            plot.click(position={"x": whole["width"] * 0.9, "y": whole["height"] / 2})
+            large = plot.bounding_box()
+            assert 0 <= large["x"] + 0.9 * large["width"] <= width
+        assert plot.evaluate(LETTERS) >= 0.85
+        if width < 864:
+            plot.click(position={"x": large["width"] * 0.9, "y": large["height"] / 2})
+            assert plot.bounding_box()["width"] == whole["width"] <= width
     assert tab.evaluate("scrollX") == 0
 
 

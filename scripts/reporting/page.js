@@ -40,3 +40,12 @@ for (const card of document.querySelectorAll(".card")) {
     timer = setInterval(() => { over.hidden = !over.hidden; }, 400);
   });
 }
+// in a narrow window a plot is large or whole; the tapped place comes to the middle
+for (const plot of document.querySelectorAll(".plot")) {
+  plot.addEventListener("click", (event) => {
+    const place = event.offsetX / plot.clientWidth;
+    plot.classList.toggle("large");
+    const box = plot.parentElement;
+    box.scrollLeft = place * plot.clientWidth - box.clientWidth / 2;
+  });
+}
