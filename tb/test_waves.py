@@ -207,6 +207,15 @@ def test_picture(wave):
     assert picture.shape[1] > 1000 and 20_000 < shaded < picture[..., 0].size / 2
 
 
+def test_long_title(wave):
+    """The title of a test with many parameters stands in lines that fit: nothing of it reaches the picture's edges."""
+    with scripts("viewing.signals", "viewing.picture") as waves:
+        groups, out = waves.groups_of(waves.read_signals(wave)), wave.with_suffix(".png")
+        waves.draw(wave, groups, 0, 30, 10, "test_top-rdx_top" + "-Parameter=16" * 16 + ", clocks 2 to 32", out)
+    top = read_image(out)[:60, :, :3].min(axis=2)
+    assert top.min() < 100 and (top[:, [*range(8), *range(-8, 0)]] == 255).all()
+
+
 def test_rows_of_a_picture():
     """Of too many ports those that stand still are left out first, then inputs; the order stays that of the ports."""
     with scripts("viewing.signals", "viewing.picture") as waves:

@@ -2,12 +2,14 @@
 """A picture of the important signals: the streams at a module's ports and its numbers, over a window of clocks."""
 
 from pathlib import Path
+from textwrap import wrap
 
 from matplotlib.figure import Figure
 
 from .signals import Group, Signal, changes
 
 ROWS = 28  # most signals of a picture
+TITLE = 150  # characters of a line of the title
 CHARACTER = 0.0047  # width of one, as part of the time axis
 SHADE, INK = "#dbe6f6", "#24406e"
 
@@ -104,7 +106,7 @@ def draw(wave: Path, groups: list[Group], start: int, until: int, period: int, t
     axes.set_yticks([len(signals) - 1 - i + 0.35 for i in range(len(signals))], [s.short for s in signals], fontsize=8)
     axes.set_xlim(start / period, until / period)
     axes.set_xlabel("clocks")
-    axes.set_title(title, fontsize=10)
+    axes.set_title("\n".join(wrap(title, TITLE, break_on_hyphens=True)), fontsize=10)
     axes.spines[["top", "right", "left"]].set_visible(False)
     axes.tick_params(axis="y", length=0)
     figure.savefig(out, dpi=110)
