@@ -4,6 +4,7 @@
 
     scripts/waves.py settle                       the first test of tb/test_settle.py
     scripts/waves.py "ring[N1=1-K=6"              the first whose name has this
+    scripts/waves.py ring --check reset           that test's first check whose name has this, not its first; or all
     scripts/waves.py --file build/waves/ring.vcd  a waveform that is there
 
 Beside the waveform (build/waves/<test>.vcd): <test>.gtkw, a save file of GTKWave; <test>.sucl, commands of Surfer, for
@@ -53,16 +54,21 @@ def test_named(text: str) -> str:
     return found[0]
 
 
-def run(name: str, seed: int | None) -> tuple[int, Path]:
-    """Run a test with a waveform: (exit status of pytest, the waveform). Raises :class:`WavesError`."""
+def run(name: str, seed: int | None, check: str) -> tuple[int, Path]:
+    """Run a check of a test, or all, with a waveform: (exit status of pytest, the waveform). Raises :class:`WavesError`."""
     WAVES.mkdir(parents=True, exist_ok=True)
     before = {path: path.stat().st_mtime_ns for path in WAVES.glob("*.vcd")}
-    settings = {**os.environ, "WAVES": "vcd", **({} if seed is None else {"SEED": str(seed)})}
+    settings = {**os.environ, "WAVES": "vcd", "CHECK": check, **({} if seed is None else {"SEED": str(seed)})}
     print(f"waves: {name} with a waveform …", file=sys.stderr, flush=True)
     status = run_pytest([name], "test", settings)
     new = [p for p in WAVES.glob("*.vcd") if before.get(p) != p.stat().st_mtime_ns and not p.stem.endswith(WRITTEN)]
     if not new:
-        raise WavesError(f"{name}: found no waveform; allowed: a test that simulates a module")
+        why = (
+            "ended before there was a waveform"
+            if status
+            else "found no waveform; allowed: a test that simulates a module"
+        )
+        raise WavesError(f"{name}: {why}")
     newest = max(new, key=lambda path: path.stat().st_mtime_ns)
     return status, newest.relative_to(Path.cwd()) if newest.is_relative_to(Path.cwd()) else newest
 
@@ -114,6 +120,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("test", nargs="?", help="a module, or module[part of a test's name")
     parser.add_argument("--file", type=Path, help="a waveform (VCD) that is there, in place of a test")
+    parser.add_argument("--check", default="first", help="which cocotb test: a part of its name, first, or all (first)")
     parser.add_argument("--seed", type=SEED, help="of the random stimuli")
     parser.add_argument(
         "--start", type=whole(0), help="first clock of the picture (default: two before the first valid)"
@@ -123,7 +130,7 @@ def main():
     if (args.test is None) == (args.file is None):
         parser.error("found both or none of TEST and --file; allowed: one")
     try:
-        status, wave = (0, args.file) if args.file else run(test_named(args.test), args.seed)
+        status, wave = (0, args.file) if args.file else run(test_named(args.test), args.seed, args.check)
         with working(f"reading and drawing {wave.name}"):
             shown = show(wave, args.start, args.clocks)
     except (WavesError, ImageError) as error:

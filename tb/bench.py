@@ -15,6 +15,7 @@ import re
 import secrets
 import shutil
 import subprocess
+import sys
 import tempfile
 import warnings
 from importlib.metadata import version
@@ -126,6 +127,22 @@ def kept(checks, later):
     return None, rf"^\w+\.(?!(?:{'|'.join(later)})$)" if later else None
 
 
+def chosen(module, checks, text):
+    """Of the cocotb tests ``checks``, or all of a test file, the one that CHECK asks for; all where that is "" or "all".
+
+    text  "first", or a part of the name: the first that has it. Ends pytest where none has it.
+    """
+    if text in ("", "all"):
+        return checks
+    found = [value for value in vars(sys.modules[module]).values() if hasattr(value, "generate_tests")]
+    names = [test.name for generator in found for test in generator.generate_tests()]
+    names = [name for name in names if not checks or name in checks]
+    fits = [name for name in names if text == "first" or text in name]
+    if not fits:
+        pytest.exit(f"CHECK: found '{text}'; allowed: first, all, or a part of {', '.join(names)}", 2)
+    return fits[:1]
+
+
 def run(module, toplevel, parameters=None, checks=None, later=()):
     """Build ``toplevel``, run the cocotb tests of the test file ``module`` in it; raise where one fails or none ran.
 
@@ -133,7 +150,8 @@ def run(module, toplevel, parameters=None, checks=None, later=()):
     parameters  of the toplevel; the cocotb tests read them from the design
     checks      names of the cocotb tests to be run; all if not given
     later       those, as patterns of names, that `make test` leaves to `make regress` (RAYDIX_SHORT)
-    The environment variables SEED and WAVES are those of ``make test``; WAVES=vcd or fst chooses the kind of waveform.
+    The environment variables SEED and WAVES are those of ``make test``; WAVES=vcd or fst chooses the kind of waveform,
+    CHECK one of the cocotb tests (:func:`chosen`).
     """
     from cocotb_tools.runner import get_results, get_runner
 
@@ -141,6 +159,7 @@ def run(module, toplevel, parameters=None, checks=None, later=()):
     if icarus and not second.found():
         pytest.skip(second.MISSING)
     checks = second.chosen(module, checks) if icarus else checks
+    checks = chosen(module, checks, os.environ.get("CHECK", ""))
     parameters = parameters or {}
     seed = int(os.environ.get("SEED") or secrets.randbelow(1 << 31))
     name = f"{module}-{toplevel}-{label(parameters)}" + (f"-{label_of(checks)}" if checks else "")

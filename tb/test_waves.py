@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Waveforms for the eye: groups, real numbers, files of viewers, a picture."""
 
+import importlib
 import re
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 from vcd.reader import TokenKind, tokenize
 
+import bench
 from raydix.formats import COORD_FRAC, VECTOR_FRAC, VECTOR_WIDTH
 from raydix.image import read_image
 from scripting import SCRIPTS, scripts
@@ -51,6 +53,7 @@ def test_numbers():
     with scripts("viewing.formats") as formats:
         number = formats.number_of
         assert number("point_i[2]", 32) == (True, COORD_FRAC) and number("control.point", 32) == (True, COORD_FRAC)
+        assert number("segment_i.ends.stop[1]", 32) == number("segment_i.ends.start[1]", 32) == (True, COORD_FRAC)
         assert number("control_i.t_next", 24) == (False, 24) and number("depth_start", 32) == (True, 31)
         assert number("b_qq[0]", 36) == (True, 34) and number("clearance", VECTOR_WIDTH) == (True, VECTOR_FRAC)
         none = ("steps", 20), ("valid_i", 1), ("t", 1), ("x", 12)
@@ -232,6 +235,7 @@ def test_rows_of_a_picture():
     [
         (["nothing"], "T: found 'nothing'; allowed: accuracy, advance"),
         (["settle[N1=9"], "T: found 'settle[N1=9'; allowed of this module: test_settle[N1=3-K=8-W=36-D=4]"),
+        (["settle", "--check", "nothing"], "CHECK: found 'nothing'; allowed: first, all, or a part of equals_model"),
         (["../../x"], "T: found '../../x'; allowed: accuracy, advance"),
         (["--file", "up.vcd"], "up.vcd: found no waveform"),
         (["--file", "still.vcd", "--start", "-5"], "--start: found '-5'; allowed: whole numbers, 0 or more"),
@@ -256,11 +260,28 @@ def test_bad_input(tmp_path, monkeypatch, arguments, said):
     assert sorted(tmp_path.iterdir()) == before
 
 
+@pytest.mark.parametrize(
+    "checks, text, found",
+    [
+        (None, "", None),
+        (None, "all", None),
+        (None, "first", ["equals_model"]),
+        (None, "bound", ["within_bound"]),
+        (["within_bound", "other"], "first", ["within_bound"]),
+    ],
+)
+def test_chosen_check(checks, text, found):
+    """CHECK: all checks of a file, the first of those that are meant, or the first with a part of its name."""
+    importlib.import_module("test_settle")
+    assert bench.chosen("test_settle", checks, text) == found
+
+
 def test_of_a_test():
-    """The first test of a module: its signals are in the files, and the picture is there."""
+    """The first test of a module, and of its checks the first: its signals are in the files, the picture is there."""
     done = command("settle", "--seed", "3")
     assert done.returncode == 0, done.stderr
     wave = next(Path(line) for line in done.stdout.splitlines() if line.endswith(".vcd"))
+    assert wave.stem.endswith("-equals_model")
     with scripts("viewing.signals") as signals:
         paths = {s.path for s in signals.read_signals(wave)}
     saved = re.findall(r"^\+\{.*?\} (\S+)$", wave.with_suffix(".gtkw").read_text(), re.M)

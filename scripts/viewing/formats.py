@@ -54,7 +54,7 @@ class Form(NamedTuple):
 # The first that fits counts. docs/number-formats.md has the formats.
 FORMS = (
     Form(r"t|t_min|t_next|digits?", None, False, 0),  # part of the segment, from 0 to 1
-    Form(r"(points?|coords?|low|high|start|end|ends|h|e|x|y|z|middle|origin)\w*", COORD_WIDTH, True, COORD_FRAC),
+    Form(r"(points?|coords?|low|high|start|stop|end|ends|h|e|x|y|z|middle|origin)\w*", COORD_WIDTH, True, COORD_FRAC),
     Form(r"b|points|chosen", None, True, -2),  # control points, as part of what W bits can hold
     Form(r"(near_|far_)?depth(_\w+)?", DEPTH_WIDTH, True, DEPTH_WIDTH - 1),
     Form(r"limit", LIMIT_WIDTH, False, LIMIT_WIDTH),
