@@ -55,7 +55,7 @@ def test_named(text: str) -> str:
 
 
 def run(name: str, seed: int | None, check: str) -> tuple[int, Path]:
-    """Run a check of a test, or all, with a waveform: (exit status of pytest, the waveform). Raises :class:`WavesError`."""
+    """Run a check of a test, or all, with a waveform: (exit status of pytest, waveform). Raises :class:`WavesError`."""
     WAVES.mkdir(parents=True, exist_ok=True)
     before = {path: path.stat().st_mtime_ns for path in WAVES.glob("*.vcd")}
     settings = {**os.environ, "WAVES": "vcd", "CHECK": check, **({} if seed is None else {"SEED": str(seed)})}

@@ -128,7 +128,7 @@ def kept(checks, later):
 
 
 def chosen(module, checks, text):
-    """Of the cocotb tests ``checks``, or all of a test file, the one that CHECK asks for; all where that is "" or "all".
+    """Of the cocotb tests ``checks``, or all of a test file, that which CHECK asks for; all where it is "" or "all".
 
     text  "first", or a part of the name: the first that has it. Ends pytest where none has it.
     """
