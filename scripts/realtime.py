@@ -32,6 +32,7 @@ from raydix.progress import track
 from raydix.render import steps_of
 from raydix.scene import load_scene
 from raydix.shade import compose
+from raydix.vecsum import DROPS
 from synth import PAGE as SIZES
 from synth import POINTS
 
@@ -43,8 +44,8 @@ RATE = 60  # frames a second
 SPEED = ("scene", "size", "processor", "n1", "digits", "rings", "rays", "steps", "steps / needed", "cycles",
          "clock for 60 Hz, MHz", "LUT4", "placed, MHz", "frames a second")  # fmt: skip
 WORK = ("scene", "rays", "visible layers", "steps", "steps / needed", "cycles")
-FEWER = ("scene", "processor", "n1", "K", "digits", "steps", "pixels that differ", "largest difference, levels",
-         "PSNR, dB", "FLIP", "silhouette")  # fmt: skip
+FEWER = ("scene", "processor", "n1", "K", "digits", "W", "left away", "steps", "pixels that differ",
+         "largest difference, levels", "PSNR, dB", "FLIP", "silhouette")  # fmt: skip
 SAVED = ("scene", "steps / needed", "all on", *(f"without {name}" for name in SKIPS), "all off", "saved")
 
 
@@ -140,17 +141,21 @@ def saved_rows(path, args):
 
 
 def fewer_rows(path, args):
-    """Pictures of a design point with fewer and fewer steps, down to 12 digits, beside that of 24; no RTL."""
+    """Pictures of a design point with fewer and fewer steps, to 12 digits, beside that of 24 and all bits; no RTL."""
     scene = load_scene(path, *args.size)
-    point, most = chosen(scene, args)
-    n1, rows, finest = most.n1, [], None
-    for steps in range(24 // n1, 12 // n1 - 1, -1 if n1 > 1 else -2):
-        config = replace(most, steps=steps, k_stop=None)
+    point, built = chosen(scene, args)
+    n1, rows = built.n1, []
+    all_steps = range(24 // n1, 12 // n1 - 1, -1 if n1 > 1 else -2)
+    spiral = built.vecsum != "none"
+    cases = [(steps, 0) for steps in all_steps] + [(all_steps[-2], drop) for drop in DROPS[1:] if spiral]
+    _, finest = golden(scene, replace(built, steps=24 // n1, k_stop=None, width=36, vector_drop=0))
+    for steps, drop in cases:
+        config = replace(built, steps=steps, k_stop=None, vector_drop=drop)
         _, frame = golden(scene, config)
-        finest = finest or frame
         apart = np.abs(frame.rgb.astype(int) - finest.rgb).max(axis=2)
         error = picture_errors(frame.rgb, finest.rgb)
-        row = [scene.name, point or "", str(n1), str(steps), str(config.digits), f"{steps_of(frame).sum():,}"]
+        bits = ["" if spiral else str(config.width), str(drop) if spiral else ""]
+        row = [scene.name, point or "", str(n1), str(steps), str(config.digits), *bits, f"{steps_of(frame).sum():,}"]
         row += [f"{(apart > 0).sum():,}", str(apart.max()), f"{error['psnr']:.1f}" if error["psnr"] else "same"]
         rows.append([*row, f"{error['flip']:.6f}", str(((frame.t < 0) != (finest.t < 0)).sum())])
     return rows, True
