@@ -443,7 +443,7 @@ REFUSED = re.compile(r"raydix: .+: found .*; allowed: .+", re.DOTALL)
 @settings(max_examples=1000, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(mutations())
 def test_mutated_scenes_are_rendered_or_refused(tmp_path, text):
-    """`raydix render` of a thousand of them: a picture, or one line for each thing that is wrong and nothing written."""
+    """`raydix render` of a thousand of them: a picture, or a line for each thing that is wrong and nothing written."""
     path, out, said = write(tmp_path, text.encode("utf-8", "surrogatepass")), tmp_path / "out", io.StringIO()
     shutil.rmtree(out, ignore_errors=True)
     with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
