@@ -101,10 +101,10 @@ POINTS = {
     "render-torus": Point(
         "rdx_render",
         {
-            "K": 6,
+            "K": 4,
             "D": 4,
             "U": 1,
-            "Rings": 3,
+            "Rings": 2,
             "Rules": 1,
             "Clip": 0,
             "HalveStages": 1,
@@ -112,11 +112,11 @@ POINTS = {
             "Layers": 1,
             "MaxWidth": 1920,
             "Pixels": 4,
-            "W": 28,
+            "W": 24,
         },
         slow=True,
-        target=100,
-        density=0.7,
+        target=90,
+        placer="static",
     ),
     "render-spiral": Point(
         "rdx_render",

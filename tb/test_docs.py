@@ -76,7 +76,7 @@ UNRUN = {
 # Options that are named without a command and are those of other programs.
 FOREIGN = {
     "--x-initial": "Verilator", "--x-assign": "Verilator",
-    "--out-of-context": "nextpnr", "--placer-heap-beta": "nextpnr",
+    "--out-of-context": "nextpnr", "--placer-heap-beta": "nextpnr", "--placer": "nextpnr",
     "--top": "yosys",
     "--setup": "FuseSoC", "--tool": "FuseSoC", "--count": "git rev-list",
 }  # fmt: skip
