@@ -334,8 +334,8 @@ def test_verify_sees_a_difference(tmp_path, monkeypatch, capsys):
     assert words[3:] == ["--pixel", f"{x},{y}", "--surface", "0", "--steps", "2", "--units", "1", "--size", "24x18"]
     # the bit was changed on the way to the picture: the steps themselves are the golden model's
     assert said.endswith(
-        "sphere: alone, the ray has the same steps, hits and colour in both: the mistake is before it (raster, skipping), "
-        "or comes only beside other rays or surfaces\n"
+        "sphere: alone, the ray has the same steps, hits and colour in both: the mistake is before it "
+        "(raster, skipping), or comes only beside other rays or surfaces\n"
     )
 
 
