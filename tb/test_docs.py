@@ -118,7 +118,9 @@ def key_of(command: str) -> str:
         words.pop(0)
     if words[0].endswith(("python", "python3")):
         words.pop(0)
-        if words[0] == "-m":
+        if words[:2] == ["-m", "raydix.entry"]:  # make's way to run a script
+            words = words[2:]
+        elif words[0] == "-m":
             return f"make {words[1].rpartition('.')[2]}"
     if words[0] == ".venv/bin/raydix" and len(words) > 1:
         words[0] = "raydix"
@@ -220,7 +222,9 @@ def program_of(command: str) -> tuple[str, list[str]] | None:
         return program_of(lines[0])
     if words[0].endswith(("python", "python3")):
         words.pop(0)
-        if words[0] == "-m":
+        if words[:2] == ["-m", "raydix.entry"]:  # make's way to run a script
+            words = words[2:]
+        elif words[0] == "-m":
             return (words[1], words[2:]) if words[1].startswith("raydix") else None
     if words[0] in ("raydix", ".venv/bin/raydix"):
         return "raydix.cli", words[1:] if len(words) > 2 else [*words[1:], "--help"]
