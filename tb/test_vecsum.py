@@ -293,4 +293,4 @@ def test_error(general, drop):
         worst.append(parts.max())
         count += int(free.sum())
     print(f"{count} points, {max(worst):.2f} of the bound")
-    assert count > 10_000 and max(worst) > 1 / 3
+    assert count > 10_000 and max(worst) > 1 / 4
