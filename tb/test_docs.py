@@ -111,17 +111,21 @@ def commands() -> dict[str, Path]:
     return found
 
 
+def without_python(words: list[str]) -> list[str]:
+    """The words of a command behind the interpreter, and behind the module by which make runs scripts."""
+    if words[0].endswith(("python", "python3")):
+        words = words[1:]
+    return words[2:] if words[:2] == ["-m", "raydix.entry"] else words
+
+
 def key_of(command: str) -> str:
     """The first words, which the tables go by."""
     words = shlex.split(command)
     while re.match(r"[A-Z_]+=", words[0]):
         words.pop(0)
-    if words[0].endswith(("python", "python3")):
-        words.pop(0)
-        if words[:2] == ["-m", "raydix.entry"]:  # make's way to run a script
-            words = words[2:]
-        elif words[0] == "-m":
-            return f"make {words[1].rpartition('.')[2]}"
+    words = without_python(words)
+    if words[0] == "-m":
+        return f"make {words[1].rpartition('.')[2]}"
     if words[0] == ".venv/bin/raydix" and len(words) > 1:
         words[0] = "raydix"
     return " ".join(words[:2]) if words[0] in ("make", "raydix") and len(words) > 1 else words[0]
@@ -220,12 +224,9 @@ def program_of(command: str) -> tuple[str, list[str]] | None:
         lines = [line for line in whole if line.startswith(".venv/bin/") or "pytest" in line]
         assert len(lines) == 1, f"{command}: {done.stdout}"
         return program_of(lines[0])
-    if words[0].endswith(("python", "python3")):
-        words.pop(0)
-        if words[:2] == ["-m", "raydix.entry"]:  # make's way to run a script
-            words = words[2:]
-        elif words[0] == "-m":
-            return (words[1], words[2:]) if words[1].startswith("raydix") else None
+    words = without_python(words)
+    if words[0] == "-m":
+        return (words[1], words[2:]) if words[1].startswith("raydix") else None
     if words[0] in ("raydix", ".venv/bin/raydix"):
         return "raydix.cli", words[1:] if len(words) > 2 else [*words[1:], "--help"]
     path = ROOT / words[0]

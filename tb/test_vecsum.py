@@ -275,7 +275,9 @@ def test_error(general, drop):
     """
     dice = random.Random(int(os.environ.get("SEED") or 1))
     worst, count = [], 0
-    for form in forms(dice, general, 40):
+    for tried, form in enumerate(forms(dice, general, 400)):
+        if tried >= 40 and max(worst) > 1 / 3:  # few seeds take more
+            break
         everywhere = points(dice, form, 1000)
         got, rho = (np.asarray(v, float) for v in model(form, everywhere, general, drop))
         rho *= 1 << drop
@@ -293,4 +295,4 @@ def test_error(general, drop):
         worst.append(parts.max())
         count += int(free.sum())
     print(f"{count} points, {max(worst):.2f} of the bound")
-    assert count > 10_000 and max(worst) > 1 / 4
+    assert count > 10_000 and max(worst) > 1 / 3
